@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optlaws.cycles.old_tables.table import OldTableReport
+from optlaws.cycles.old_tables.report import OldTableReport
 from optlaws.errors import InputError
 from optlaws.plots.report import mark_segments
 from optlaws.plots.style import BLUES, GREY, WARM, one_below_the_other

@@ -155,7 +155,7 @@ def _old_cam(
     file: Path, how: Mapping[str, Any], cam: Mapping[str, Any], *, out: Path | None, plot: Path | None
 ) -> Answer:
     """Answer for the table of an old cam, read `how` the options say, with a better one and files as `cam` says."""
-    from optlaws.cycles.old_tables.table import OldTableReport
+    from optlaws.cycles.old_tables.report import OldTableReport
     from optlaws.exports.format import format_of
     from optlaws.motion.quantities import quantity
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
-from math import isfinite, nan
 from pathlib import Path
 from typing import Any
 
@@ -23,8 +21,6 @@ from optlaws.cycles.old_tables.stretches import (
     Stretch,
     better,
     gain,
-    law_of_move,
-    nothing_to_better,
     position,
     seam_of,
     stretches_of,
@@ -32,15 +28,11 @@ from optlaws.cycles.old_tables.stretches import (
 from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, Rise
 from optlaws.errors import InputError, located
 from optlaws.files import reading
-from optlaws.kept import kept_property
 from optlaws.laws.catalogue.reading import LARGEST_TABLE
-from optlaws.laws.report import law_panels
-from optlaws.motion.quantities import QUANTITIES, Exact, either
-from optlaws.numbers import Array, Quantity, bounded, not_negative, numbers, positive
+from optlaws.motion.quantities import Exact, either
+from optlaws.numbers import Array, Quantity, not_negative, numbers, positive
 from optlaws.sentences import Amount, joined, sentence
-from optlaws.shown.report import Panel, ReportSegment, ReportTable, Series
-from optlaws.shown.summary import Row, Summary
-from optlaws.tolerances import AGREEMENT, NO_MARK
+from optlaws.tolerances import AGREEMENT
 
 _TIMES = {"s", "ms"}
 _MOST_NAMED = 8  # points that are left out
@@ -478,122 +470,3 @@ def split_table(
         tuple(stretches_of(motion)), room, scatter, seam_of(heights, room), unit, master, samples.places, heights,
         whole=whole, outliers=tuple(np.flatnonzero(motion.samples.suspects).tolist()),
     )  # fmt: skip
-
-
-_OLD, _NEW, _POINTS = 0, 1, 2  # colours
-
-
-@dataclass(frozen=True)
-class OldTableReport:
-    """The report of a table, with the laws that better it where there are such; places are those of its master."""
-
-    table: OldTable
-    new: OldTable | None = None
-
-    @property
-    def facts(self) -> Summary:
-        """What the file is, how near the laws are to its points, and which moves keep their laws."""
-        read = Row(f"{self.table.layout}, {len(self.table.places)} points")
-        return Summary([read, *map(Row, self.table.remarks), *map(Row, self.unchanged)])
-
-    @property
-    def unchanged(self) -> Iterator[str]:
-        """Moves that keep their laws, and why."""
-        for part, was in self._pairs:
-            if part.law is was.law:
-                what = nothing_to_better(law_of_move(part))
-                why = f"it is {what}" if what else "none of degree 15 so near has less acceleration"
-                yield f"the {part.kind} from {part.start:g} keeps its law: {why}"
-
-    @property
-    def _pairs(self) -> list[tuple[Stretch, Stretch]]:
-        return [] if self.new is None else list(zip(self.new.moves, self.table.moves, strict=True))
-
-    @kept_property
-    def tables(self) -> tuple[ReportTable, ...]:
-        """The stretches with their laws; the peaks of moves with other laws than before, beside those they had."""
-        old, new = self.table, self._gains()
-        ends = [f"from, {old.master}", f"to, {old.master}"]
-        rows = [
-            [part.kind, part.start, part.stop, part.stroke or None, old.law_in_words(part) if part.law else ""]
-            for part in old.stretches
-        ]
-        stretches = ReportTable(["what", *ends, f"by, {old.unit}", "law"], rows)
-        gains = ["what", *ends, "peak", "old", "new", "unit", "change, %", f"off by, {old.unit}"]
-        return (stretches, ReportTable(gains, new)) if new else (stretches,)
-
-    def _gains(self) -> list[list[Any]]:
-        rows = []
-        for each in (gain(part, was) for part, was in self._pairs if part.law is not was.law):
-            for nu in (1, 2, 3):
-                peaks = [each.old[nu - 1], each.new[nu - 1], self.table.unit_of(nu)]
-                change = bounded(100.0 * each.share(nu))
-                first = [each.kind, each.start, each.stop] if nu == 1 else ["", None, None]
-                rows.append([*first, QUANTITIES[nu], *peaks, change, each.deviation if nu == 1 else None])
-        return rows
-
-    @property
-    def segments(self) -> tuple[ReportSegment, ...]:
-        """The dwells and moves with their ends."""
-        return tuple(ReportSegment(part.kind, part.start, part.stop) for part in self.table.stretches)
-
-    @kept_property
-    def panels(self) -> tuple[Panel, ...]:
-        """Position with the points, how far points and new laws are off the old ones, and derivatives by the master."""
-        position, *derivatives = (self._panel(nu) for nu in range(len(QUANTITIES)))
-        old, points = self.table, Series(self.table.places, self.table.heights, _POINTS, "points", dots=True)
-        curves = [curve for curve in position.series if curve.law == _NEW]
-        off = [curve._replace(values=curve.values - old.at(curve.at)) for curve in (points, *curves)]
-        position = replace(position, series=(*position.series, points), peaks=())
-        return (position, replace(position, name="off the old law", series=tuple(off)), *derivatives)
-
-    def _panel(self, nu: int) -> Panel:
-        """A derivative by the master, with the greatest magnitude of every move."""
-        series, peaks = [], list[tuple[float, float]]()
-        old = (_OLD, "old law", self.table.stretches)
-        for law, name, stretches in [old] if self.new is None else [old, (_NEW, "new law", self.new.stretches)]:
-            panels = [_of_part(part)[nu] for part in stretches]
-            at, values = (np.concatenate([panel.series[0][i] for panel in panels]) for i in (0, 1))
-            series.append(Series(at, values, law, name))
-            peaks += [peak for panel in panels for peak in panel.peaks]
-        marked, across = tuple(dict.fromkeys(peaks)), f"master, {self.table.master}"
-        return Panel(QUANTITIES[nu], self.table.unit_of(nu), tuple(series), (), marked, across=across, per=1.0)
-
-    @property
-    def data(self) -> dict[str, Any]:
-        """The table for programs, with the gains of better laws."""
-        old, new = self.table, self.new
-        stretches = [
-            {
-                **{name: getattr(part, name) for name in ("kind", "start", "stop", "low", "high")},
-                "law": part.law if part.law is None or isinstance(part.law, str) else part.law.to_dict(),
-                "nearest": part.nearest or None,
-                "distance": part.distance if part.nearest else None,
-            }
-            for part in (new or old).stretches
-        ]
-        known = {name: getattr(old, name) for name in ("unit", "master", "room", "scatter", "seam")}
-        facts = {"layout": old.layout, "points": len(old.places), **known, "stretches": stretches}
-        if new is None:
-            return facts
-        peaks = ({"old": list(map(bounded, each.old)), "new": list(map(bounded, each.new))} for each in new.gains(old))
-        return facts | {"gains": [each._asdict() | ends for each, ends in zip(new.gains(old), peaks, strict=True)]}
-
-
-@lru_cache(maxsize=256)
-def _of_part(part: Stretch) -> tuple[Panel, ...]:
-    """Position and its derivatives by the master in a stretch, through the extremes of its law."""
-    length = part.stop - part.start
-    if part.law is None:
-        at = np.array([part.start, part.stop])
-        return tuple(Panel("", "", (Series(at, np.full(2, 0.0 if nu else part.low)),)) for nu in range(len(QUANTITIES)))
-    panels = []
-    for nu, panel in enumerate(law_panels(law_of_move(part), "abcj")):
-        size, base, (curve,) = part.stroke / length**nu, 0.0 if nu else part.low, panel.series
-        peaks = [(part.start + length * k, size * value) for k, value in panel.peaks if nu and isfinite(value)]
-        greatest = max(peaks, key=lambda peak: abs(peak[1]), default=(nan, 0.0))
-        marked = (greatest,) if abs(greatest[1]) > NO_MARK else ()
-        panels.append(
-            Panel("", "", (Series(part.start + length * curve.at, base + size * curve.values),), peaks=marked)
-        )
-    return tuple(panels)

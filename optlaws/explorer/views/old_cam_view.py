@@ -13,8 +13,9 @@ import numpy as np
 
 from optlaws import Cycle, Solution
 from optlaws.cycles.old_tables.reading import points_in
+from optlaws.cycles.old_tables.report import OldTableReport
 from optlaws.cycles.old_tables.stretches import better
-from optlaws.cycles.old_tables.table import OldTable, OldTableReport, table_of
+from optlaws.cycles.old_tables.table import OldTable, table_of
 from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Number, Text
 from optlaws.errors import InputError
