@@ -116,7 +116,7 @@ _SAMPLES = 721
 class Following:
     """A follower on a closed curve of any parameter: the cam's angle there, and the displacement.
 
-    The follower is taken to touch the curve at one place, as it does where the curve bulges outward or its hollows are
+    The follower is taken to touch the curve at one place, as it does where the curve is convex or its concave parts are
     wider than the roller. `phase` turns the cam's coordinates, rad; the curve is `outside` of the profile, m, by the
     radius of the cutter whose path it is.
     """
@@ -171,7 +171,7 @@ _CELLS = 128
 _SHIFTS = np.array([0.0, 0.5 * pi, pi, 1.5 * pi])
 WAVES = Whole(1, 100_000)
 _UNREACHED = (
-    "the follower does not reach all of the cam as made: it has corners or hollows narrower than the roller; "
+    "the follower does not reach all of the cam as made: it has corners, or concave parts narrower than the roller; "
     "ask for more decimals, fewer points or waves, or a lesser error"
 )
 

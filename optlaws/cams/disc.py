@@ -227,7 +227,7 @@ class DiscCam:
         return number_or_array(self.contact.pressure(s).cut(nu).arctangent().derivative(nu))
 
     def radius_of_curvature(self, angle: Any) -> Any:
-        """The radius of curvature of the profile, m: above 0 where it bulges outward, below where it is hollow."""
+        """The radius of curvature of the profile, m: above 0 where it is convex, below where it is concave."""
         s = self.displacement.jet(real_times(angle), 2)
         return number_or_array(self.contact.radius_of_curvature(s))
 

@@ -133,7 +133,7 @@ class LineContact:
         """The square of it where the cam has a curvature: smooth where the follower lifts off, and below 0 beyond."""
         both = curvature + self.roller_curvature
         if np.any(highest(both.terms[0]) < 0.0):
-            raise InputError("the cam is hollow where a flat face or a roller that is wider would touch it elsewhere")
+            raise InputError("the cam is concave where a flat face or a roller that is wider would touch it elsewhere")
         return force * both * (self.modulus / (pi * self.width))
 
 

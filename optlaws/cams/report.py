@@ -88,8 +88,8 @@ class CamReport:
             ("greatest pressure angle", "greatest_pressure_angle", greatest, "deg", limits.pressure),
             ("pressure angle, least", "least_pressure_angle", least, "deg", limits.pressure),
             ("pressure angle, greatest", "largest_pressure_angle", most, "deg", limits.pressure),
-            ("least radius of curvature, bulging", "bulging_radius", extremes.least_convex_radius, "mm", limits.radius),
-            ("least radius of curvature, hollow", "hollow_radius", extremes.least_concave_radius, "mm", None),
+            ("least radius of curvature, convex", "bulging_radius", extremes.least_convex_radius, "mm", limits.radius),
+            ("least radius of curvature, concave", "hollow_radius", extremes.least_concave_radius, "mm", None),
         ]
 
     @kept_property

@@ -370,9 +370,9 @@ class Answers(Exportable):
     def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
         plan, proof = self.solve(), tuple[str, ...]()
         if plan.solutions:
-            bound = "" if plan.lower_bound is None else f", none below {plan.lower_bound:.9g}"
-            least = f"least {plan.minimise} {plan.objective:.9g}{bound} (SI units) of {plan.search_space}"
-            proof = (f"laws looked for: {len(plan.solutions)}, status {plan.status.value}; {least}", *plan.remarks)
+            bound = "" if plan.lower_bound is None else f", lower bound {plan.lower_bound:.9g}"
+            least = f"least {plan.minimise} {plan.objective:.9g}{bound} in SI units, over all {plan.search_space}"
+            proof = (f"{len(plan.solutions)} optimised laws, status {plan.status.value}: {least}", *plan.remarks)
         return motion_of_pieces(plan.pieces, plan.duration, plan.axis, master=master, unit=unit, proof=proof)
 
     def report(self) -> Report:

@@ -309,7 +309,7 @@ def proof_rows(plan: Solved) -> list[Row]:
     bound = plan.lower_bound
     none = Row("proven lower bound", "none is known")
     rows.append(none if bound is None else Row("proven lower bound", bound, unit))
-    return [*rows, Row("found among", plan.search_space), *(Row("remark", remark) for remark in plan.remarks)]
+    return [*rows, Row("search space", plan.search_space), *(Row("remark", remark) for remark in plan.remarks)]
 
 
 def peak_rows(plan: Solved) -> list[Row]:

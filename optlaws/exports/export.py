@@ -348,7 +348,7 @@ class Export(TextFile):
         units = [slave, *(f"{slave}/{master if rate is None else 's'}{power}" for power in ("", "²", "³"))]
         means = run.mean_absolute_velocity, law.mean_absolute_velocity
         effective = run.effective_acceleration, law.effective_acceleration
-        where = "where it repeats" if self.motion.repeats else "from and to rest"
+        where = "at the repeat" if self.motion.repeats else "at the ends"
         moving = list(enumerate(QUANTITIES))[1:]
         rows: list[tuple[Any, ...]] = [
             *((f"peak of {name}", nu, run.peak(nu), law.peak(nu), self.report.ratio(nu)) for nu, name in moving),
@@ -362,7 +362,7 @@ class Export(TextFile):
             ),
         ]
         if self.report.bound:
-            rows.append(("roundings may add", 2, self.report.bound, None, None))
+            rows.append(("rounding adds at most", 2, self.report.bound, None, None))
         if self.task is not None:
             sampled = self.task.acceleration, law.peak(2)
             name = f"acceleration by positions every {1e3 * self.task.seconds:g} ms"

@@ -71,7 +71,7 @@ class Written:
     resolution
         Step to which positions are rounded, in units of the slave; 0 for the rounding of double precision.
     bound
-        What roundings may add to the peak of the acceleration, in units of the slave by the master's squared.
+        What rounding adds at most to the peak of the acceleration, in units of the slave by the master's squared.
     notes
         What else there is to say.
     roundings

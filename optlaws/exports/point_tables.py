@@ -284,7 +284,7 @@ def _rank(motion: Motion, table: PointTable) -> Rank:
 
 
 def _change(motion: Motion, first: float, last: float) -> float:
-    """The jump from the last value to the first where a motion repeats, else from and to rest."""
+    """The jump from the last value to the first where a motion repeats, else at its ends."""
     return abs(last - first) if motion.repeats else max(abs(first), abs(last))
 
 

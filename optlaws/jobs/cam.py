@@ -343,7 +343,7 @@ class CamResult:
             roller = greatest_roller(self.cam, radius_of_curvature=self.spec.radius_of_curvature or "0 mm")
             angle = add("greatest roller", roller.radius, roller.too_large, roller.angle)
             data["greatest_roller"] = {"radius": roller.radius, "too_large": roller.too_large, **angle}
-        table = ReportTable.of_pairs(rows, "kept with", "broken with") if rows else None
+        table = ReportTable.of_pairs(rows, "satisfied with", "violated with") if rows else None
         return Section("Sizes" if rows else "", rows, table, data, note=reason)
 
     @kept_property
@@ -454,7 +454,7 @@ class CamResult:
             "peak acceleration, ratio": [each and each.acceleration_ratio for each in peaks.values()],
             "peak jerk, ratio": [each and each.jerk_ratio for each in peaks.values()],
         }
-        hollow = "Where nothing stands the follower does not reach all of the cam: it has hollows."
+        hollow = "Where nothing stands the follower does not reach all of the cam, which is concave there."
         data = {name: None if each is None else each.to_dict() for name, each in peaks.items()}
         note = hollow if None in peaks.values() else ""
         return Section("As made", table=ReportTable.of_columns(columns), data={"as_made": data}, note=note, digits=5)

@@ -255,8 +255,8 @@ def test_the_report_says_it_all() -> None:
         "clamped",
         "StartSlope",
         "peak of acceleration, mm/s²",
-        "from and to rest",
-        "roundings may add",
+        "at the ends",
+        "rounding adds at most",
     ):
         assert word in message
     over_angle = str(smoothstep(3).export("csv", stroke="1 mm", master="90 deg", points=19))

@@ -147,7 +147,7 @@ class CamExtremes:
     least_convex_radius
         The least radius of curvature of the profile where it bulges.
     least_concave_radius
-        The least radius where it is hollow, as a positive number; None where it is proven to be hollow nowhere. A
+        The least radius where it is concave, as a positive number; None where it is proven to be concave nowhere. A
         cutter must be smaller.
     undercut
         What is proven of undercut.

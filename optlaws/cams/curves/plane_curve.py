@@ -196,7 +196,7 @@ class PlaneCurve(CurveByAngle, Outline):
         return self.turning * np.stack([y.terms[0], -x.terms[0]], axis=-1)
 
     def curvature(self, angle: Any, *, before: bool = False) -> Any:
-        """The curvature, 1/m: above 0 where the curve bulges outward, below where it is hollow.
+        """The curvature, 1/m: above 0 where the curve is convex, below where it is concave.
 
         It is infinite at a cusp, and negative beyond one that ends in a loop.
         """

@@ -95,7 +95,7 @@ def _motion(law: str, axis: str | None, move: Mapping[str, Any], points: Mapping
             raise InputError("--axis is one of a problem file with several; a law has none")
         return motion_of_law(read_law(law, **points), **move)
     for option in given({**move, **points, "master": None}):
-        raise InputError(f"--{option} is of a law alone: a cycle has its own")
+        raise InputError(f"--{option} applies to a single law: a cycle has its own")
     cycles = read_axes(Path(law), axis)
     if len(cycles) > 1:
         raise InputError(f"{law} has several axes, say which by --axis: {', '.join(cycles)}")

@@ -98,7 +98,7 @@ class AxesReport:
     @property
     def tables(self) -> tuple[ReportTable, ...]:
         """The least clearances, where there are interlocks."""
-        headings = ("interlock", "status", "least clearance", "proven", "unit", "at, deg", "early by, ms")
+        headings = ("interlock", "status", "least clearance", "proven", "unit", "at, deg", "time in hand, ms")
         clearances = [least.cells for least in self.clearances]
         return (ReportTable(headings, clearances),) if clearances else ()
 

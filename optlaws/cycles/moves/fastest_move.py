@@ -226,7 +226,7 @@ class FastestMove(LawExport, MovePlan, JsonText):  # type: ignore[misc] # its ex
     @property
     def _proven(self) -> str:
         """How far the least time is proven, and the statement on all laws of the space that is."""
-        word = "proven" if self.status is Status.OPTIMAL else "the least that was found, and proven"
+        word = "proven" if self.status is Status.OPTIMAL else "a local optimum; proven"
         space = self.least.move.problem
         laws = f"the laws of order {space.order} in {space.basis!r}"
         return f"{word}: none of {laws} takes {self.none_below:.9g} s or less"

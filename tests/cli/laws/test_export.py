@@ -22,7 +22,7 @@ def test_the_file_goes_to_stdout_and_the_report_to_stderr(capsys: Capture) -> No
     )
     assert out.count("\n") == 39
     assert "37 points" in err
-    assert "roundings may add" in err
+    assert "rounding adds at most" in err
 
 
 def test_a_file_is_written_and_never_lost(tmp_path: Path, capsys: Capture) -> None:
