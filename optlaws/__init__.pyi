@@ -68,6 +68,7 @@ from .cycles.specification.segments import (
     Rise as Rise,
 )
 from .errors import (
+    CallError as CallError,
     InfeasibleProblem as InfeasibleProblem,
     InputError as InputError,
     NoisyTable as NoisyTable,

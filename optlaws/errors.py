@@ -37,6 +37,18 @@ class InputError(OptlawsError, ValueError):
         super().__init__(cut(message))
 
 
+class CallError(InputError, TypeError):
+    """An argument that a constructor does not know, or one that it lacks: a mistake of the call, as Python's own.
+
+    Examples
+    --------
+    >>> import optlaws
+    >>> optlaws.Problem(order=3, degree=13)
+    Traceback (most recent call last):
+    optlaws.errors.CallError: unknown entry of a problem 'degree': give basis=Chebyshev(13)
+    """
+
+
 @contextmanager
 def located(where: str) -> Iterator[None]:
     """Errors name the file, the axis or the entry that they came from; a problem and its proof stay with them.

@@ -216,7 +216,8 @@ def test_everything_raised_on_purpose_is_one_tree() -> None:
     warnings = {one for one in found if issubclass(one, Warning)}
     assert {warning.__name__ for warning in warnings} == {"NoisyTable", "NotNormalised"}
     errors = [one for one in found if one not in warnings]
-    assert {error.__name__ for error in errors} == {"InfeasibleProblem", "InputError", "OptlawsError", "SolverFailure"}
+    known = {"CallError", "InfeasibleProblem", "InputError", "OptlawsError", "SolverFailure"}
+    assert {error.__name__ for error in errors} == known
     assert all(issubclass(error, optlaws.OptlawsError) for error in errors)
 
 
@@ -247,3 +248,16 @@ def test_the_page_of_types_names_each_of_them_and_the_words_of_each_choice() -> 
         kind = getattr(optlaws.typing, name)
         if get_origin(kind) is Literal:
             assert listed == list(get_args(kind))
+
+
+@pytest.mark.parametrize(
+    ("make", "instead"),
+    [
+        (lambda: optlaws.Problem(order=3, degree=13), r"'degree': give basis=Chebyshev\(13\)"),  # type: ignore[call-arg] # it is refused
+        (lambda: optlaws.Cycle([optlaws.Rise("1 m", "1 s")], rpm=200), "'rpm': give speed=\"200 rpm\""),  # type: ignore[call-arg] # it is refused
+    ],
+)
+def test_what_stands_elsewhere_is_refused_with_its_place(make: Callable[[], Any], instead: str) -> None:
+    with pytest.raises(InputError, match=instead) as refused:
+        make()
+    assert isinstance(refused.value, TypeError)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, replace
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from optlaws.cycles.optimisation.durations import durations
 from optlaws.cycles.optimisation.objectives import OBJECTIVES, CycleObjective, check_objective, limits_of_cycle
@@ -83,6 +83,8 @@ def _plain(value: Any) -> Any:
 @declared
 class Specification(Declared, title="a stored cycle"):
     """The entries of a cycle, and what follows from them without a search of laws."""
+
+    instead: ClassVar[Mapping[str, str]] = {"rpm": 'speed="{} rpm"'}
 
     segments: Sequence[CycleSegment] = entry(
         SEGMENTS, "What happens, in order: `Rise`, `Return`, `Move`, `Dwell`, `ConstantVelocity`, `Free`."

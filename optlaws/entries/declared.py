@@ -14,7 +14,7 @@ from typing import Any, ClassVar, ForwardRef, NoReturn, Self, TypeVar, dataclass
 
 from optlaws.echo import shortened, unknown_key
 from optlaws.entries.value_types import AnyTable, Kept, ValueType
-from optlaws.errors import InputError, located
+from optlaws.errors import CallError, InputError, located
 from optlaws.files.reading import JsonText, check_names
 from optlaws.motion.quantities import written
 
@@ -233,10 +233,6 @@ def declared(cls: type[DeclaredT]) -> type[DeclaredT]:
     return value
 
 
-class _CallError(InputError, TypeError):
-    """An entry that a constructor does not know or lacks, which is a mistake of the call too."""
-
-
 def _naming_entries(cls: type[DeclaredT]) -> Callable[..., None]:
     """The constructor of a declared class, which names entries that it does not have, and those that it needs."""
     make = cls.__init__
@@ -247,7 +243,11 @@ def _naming_entries(cls: type[DeclaredT]) -> Callable[..., None]:
     def constructor(self: DeclaredT, *args: Any, **given: Any) -> None:
         unknown, lacking = given.keys() - takes, needed.difference(names[: len(args)], given)
         if unknown or lacking:
-            raise _CallError(_mistake(cls, unknown, lacking, names))
+            other = next((name for name in sorted(unknown) if name in cls.instead), None)
+            if other is not None:
+                called, instead = cls.named.replace("stored ", ""), cls.instead[other].format(given[other])
+                raise CallError(f"unknown entry of {called} {other!r}: give {instead}")
+            raise CallError(_mistake(cls, unknown, lacking, names))
         make(self, *args, **given)
 
     return constructor
@@ -329,6 +329,8 @@ class Declared(JsonText):
     writes_defaults: ClassVar[bool] = False
     #: of these not even then, as versions before do not know them
     newer: ClassVar[tuple[str, ...]] = ()
+    #: what a constructor takes in place of entries that it does not have, with the given value in braces
+    instead: ClassVar[Mapping[str, str]] = {}
     #: whether plain data have more, which is computed and not read
     computes: ClassVar[bool] = False
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, fields, replace
 from functools import lru_cache
-from typing import Any, cast
+from typing import Any, ClassVar, cast
 
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, Entry, TableOf, declared, entries_of, entry
@@ -146,6 +146,8 @@ class Problem(Declared, title="a problem"):
     >>> Problem(B=1.859, order=4, basis=Chebyshev(9))
     Problem(B=1.859, order=4, basis=Chebyshev(degree=9), minimise='C')
     """
+
+    instead: ClassVar[Mapping[str, str]] = {"degree": "basis=Chebyshev({})"}
 
     _: KW_ONLY
     minimise: str | Term | Expression = entry(
