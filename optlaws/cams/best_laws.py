@@ -187,7 +187,9 @@ def best_prime_circle(
 ) -> BestPrimeCircle:
     """The least prime circle that any laws of a cycle's optimal motions allow.
 
-    What a prime circle needs at an angle is linear in the law, so that its greatest value is a convex objective.
+    What a prime circle needs at an angle is linear in the law, so that its greatest value is a convex objective. The
+    radius of curvature under a roller is no part of it: the prime circle of these laws keeps it, and is above the lower
+    bound where it needs more for it.
 
     Parameters
     ----------
@@ -201,7 +203,7 @@ def best_prime_circle(
     Raises
     ------
     InputError
-        If the follower is another, or the limit is not that of its kind.
+        If the follower is another, or the limit of its kind is missing.
     InfeasibleProblem
         If no law keeps the limits of the cycle.
 
@@ -219,11 +221,12 @@ def best_prime_circle(
     if limit is None:
         raise InputError("follower: the least prime circle of all laws is known of rollers and flat faces on slides")
     contact = _unit_contact(cycle, follower, sense(turning))
-    if set(limits) != {limit}:
-        raise InputError(f"the least prime circle of all laws under this follower takes one limit: {_NAMED[limit]}")
+    if limit not in limits:
+        raise InputError(f"the least prime circle of all laws under this follower takes the limit {_NAMED[limit]}")
+    sizing = {limit: limits[limit]}
     needs, solutions, pieces = [], [], []
     for piece, solution, _ in _with_solutions(cycle):
-        excesses = [limit.excess() for limit in linear_limits(piece, contact, limits, cycle.duration, below=True)]
+        excesses = [limit.excess() for limit in linear_limits(piece, contact, sizing, cycle.duration, below=True)]
         if solution is None:
             needs += [abs(piece.stroke) * excess.value(piece.law) for excess in excesses]
             pieces.append(piece)

@@ -48,7 +48,7 @@ from optlaws.cycles.specification.segments import OPTIMAL
 from optlaws.cycles.usual_law import USUAL, usual_cycle
 from optlaws.echo import shortened
 from optlaws.entries.declared import entries_of
-from optlaws.errors import InfeasibleProblem, InputError, located
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located
 from optlaws.jobs.cam_entries import BarrelProblemFile, CamProblemFile
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import MICRO, MILLI, TURN, TURN_DEG, Exact
@@ -107,6 +107,8 @@ def read(data: Mapping[str, Any], file: Path) -> CamResult | BarrelResult:
     spec = _entries(data, file)
     with located(str(file)):
         if isinstance(spec, CamProblemFile):
+            for each in spec.file:
+                each.check_writer()
             return CamResult.of_file(spec)
         cam = BarrelCam(spec.cycle, **spec.barrel.to_dict(), turning=spec.turning)
         section, table = barrel_section(cam), barrel_coordinates(cam, spec.rows, spec.cutter_radius)
@@ -380,7 +382,9 @@ class CamResult:
         given, forces = self.spec.forces, self.forces
         if given is None or forces is None:
             return ()
-        sections = [replace(forces_section(forces, self.pressed), draw=partial(forces_figure, forces))]
+        sections = [
+            replace(forces_section(forces, self.pressed), draw=partial(forces_figure, forces, usual=self._usual_forces))
+        ]
         if given.irregularity is not None:
             sections.append(_energy_section(energy_fluctuation(forces), given.irregularity))
         if self.cam.extremes.undercut.status == UNDERCUT:
@@ -398,6 +402,17 @@ class CamResult:
         """The constants of the drive; none where it has none."""
         drive = self.spec.cycle.drive
         return dict(drive) if isinstance(drive, Mapping) else {}
+
+    @property
+    def _usual_forces(self) -> tuple[str, CamForces] | None:
+        """The forces of the cam with the usual law, where it has them."""
+        usual = self.usual
+        if usual is None or usual.cam.extremes.undercut.status == UNDERCUT:
+            return None
+        try:
+            return None if usual.forces is None else (USUAL, usual.forces)
+        except OptlawsError:
+            return None
 
     @property
     def pressed(self) -> str:
@@ -484,7 +499,7 @@ class CamResult:
 
     def drawn(self, title: str) -> Figure:
         """The picture of the cam."""
-        return cam_figure(self.cam, title)
+        return cam_figure(self.cam, title, None if self.usual is None else (USUAL, self.usual.cam))
 
 
 def _of_laws(plan: Plan) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from optlaws.errors import InputError
 from optlaws.files.writing import MARK
 from optlaws.motion.quantities import DEGREES, MILLI, TURN_DEG
 from optlaws.numbers import Array
-from optlaws.plots.report import draw_panels
+from optlaws.plots.report import draw_panel, draw_panels
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
 
 if TYPE_CHECKING:
@@ -32,24 +32,34 @@ PANELS = ("displacement", "pressure angle", "curvature")
 _SHOWN = 8  # followers around the cam
 _SAMPLES = 721
 _FILL = "#dfe9f3"
+#: of curves of the usual law
+_BESIDE: dict[str, Any] = {"color": GREY, "linewidth": 1.1, "linestyle": (0, (4, 2)), "zorder": 1.5}
 
 
-def cam_figure(cam: DiscCam, title: str) -> Figure:
-    """The cam and what its follower does, as a figure."""
+def cam_figure(cam: DiscCam, title: str, usual: tuple[str, DiscCam] | None = None) -> Figure:
+    """The cam and what its follower does, as a figure; beside it what a cam with the usual law of a name does."""
     with plot_style():
         figure, panels = _figure()
+        if usual is not None:
+            name, other = usual
+            _draw_profile(other, panels[0], _BESIDE | {"label": name})
+            beside = CamReport(other)
+            for panel, axes in zip(beside.panels, panels[1:], strict=False):
+                draw_panel(panel, axes, **_BESIDE)
         draw_cam(cam, panels)
         figure.align_ylabels(panels[1:])
         return titled(figure, title)
 
 
-def forces_figure(forces: CamForces, title: str) -> Figure:
+def forces_figure(forces: CamForces, title: str, *, usual: tuple[str, CamForces] | None = None) -> Figure:
     """Contact force, torque and, where the contact has a width, Hertz's pressure over the turn; a process force above.
 
+    Beside them are those of a cam with the usual law of a name.
     Between the torque and its mean lies the work that a flywheel stores, where a process takes some.
     """
     report = CamReport(forces.cam)
     process, loads = report.process(forces), report.loads(forces)
+    name, beside = ("", ()) if usual is None else (usual[0], CamReport(usual[1].cam).loads(usual[1]))
     panels = [*zip(process, [GREEN], strict=False), *zip(loads, (BLUES[3], WARM, GREEN), strict=False)]
     with plot_style():
         figure = new_figure(8.6, 2.2 * len(panels))
@@ -57,6 +67,10 @@ def forces_figure(forces: CamForces, title: str) -> Figure:
         for axes, (panel, colour) in zip(column, panels, strict=True):
             (curve,) = _draw(report, [panel], [axes], color=colour)
             axes.axhline(0.0, color=GREY, linewidth=0.8)
+            for other in beside:
+                if other.name == panel.name:
+                    draw_panel(other, axes, **_BESIDE | {"label": name})
+                    axes.legend(loc="upper right")
             if process and colour == WARM:
                 _work_above_mean(axes, curve, 0.5 * sum(forces.mean_torque))
             axes.set(xlabel="")
@@ -184,11 +198,10 @@ def _draw_mechanism(cam: DiscCam, axes: Axes, style: dict[str, Any]) -> list[Art
     """The profile with its base circle, the pitch curve with its prime circle, and the follower seen from the cam."""
     first, last = cam.displacement.interval
     angles = np.linspace(first, last, _SAMPLES)
-    profile = MILLI * cam.profile(angles)
     axes.set_aspect("equal")
     if cam.displacement.closed:
-        axes.fill(*profile.T, color=_FILL, zorder=1)
-    artists: list[Artist] = list(axes.plot(*profile.T, zorder=4, label="profile", **style))
+        axes.fill(*(MILLI * cam.profile(angles)).T, color=_FILL, zorder=1)
+    artists = _draw_profile(cam, axes, {"zorder": 4, "label": "profile"} | style)
     _draw_circle(axes, cam.base_radius, "base circle", (0, (6, 4)))
     if cam.contact.roller:
         _draw_circle(axes, cam.base_radius + cam.contact.roller, "prime circle", (0, (6, 2, 1, 2)))
@@ -201,6 +214,10 @@ def _draw_mechanism(cam: DiscCam, axes: Axes, style: dict[str, Any]) -> list[Art
     axes.set(xlabel="x of the cam, mm", ylabel="y of the cam, mm")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=3)
     return artists
+
+
+def _draw_profile(cam: DiscCam, axes: Axes, style: dict[str, Any]) -> list[Artist]:
+    return list(axes.plot(*(MILLI * cam.profile(np.linspace(*cam.displacement.interval, _SAMPLES))).T, **style))
 
 
 def _draw_circle(axes: Axes, radius: float, label: str, dashes: Any) -> None:

@@ -205,7 +205,7 @@ def test_what_has_no_best_law_says_the_remedy() -> None:
         best_cam(given, "50 mm", TranslatingRoller("12 mm"), pressure_angle="30 deg")
     with pytest.raises(InputError, match="pressure_angle='30 deg'"):
         best_cam(PRESS, "50 mm", TranslatingRoller("12 mm"))
-    with pytest.raises(InputError, match=r"takes one limit: radius_of_curvature='5 mm'"):
+    with pytest.raises(InputError, match=r"takes the limit radius_of_curvature='5 mm'"):
         best_prime_circle(VALVE, TranslatingFlat(), pressure_angle="30 deg")
     with pytest.raises(InputError, match="flat faces on slides"):
         best_prime_circle(ROCKER, OscillatingFlat("150 mm"), radius_of_curvature="3 mm")
@@ -242,3 +242,18 @@ def test_the_least_power_of_a_cam_is_the_least_torque_at_its_shaft() -> None:
     assert best.lower_bound / rate <= torques[0] < 0.98 * torques[1]
     assert np.degrees(best.cam.extremes.greatest_pressure_angle.value) <= 28.0 * (1.0 + 1e-6)
     assert best.status.value == "local"
+
+
+def test_the_least_prime_circle_keeps_a_radius_of_curvature_beside_the_pressure_angle() -> None:
+    roller = TranslatingRoller("12 mm")
+    limits = {"acceleration": "28 m/s^2", "jerk": "4300 m/s^3"}
+    cycle = replace(PRESS, limits=limits, degree=5)
+    one = best_prime_circle(cycle, roller, pressure_angle="30 deg")
+    both, wide = (
+        best_prime_circle(cycle, roller, pressure_angle="30 deg", radius_of_curvature=radius)
+        for radius in ("5 mm", "45 mm")
+    )
+    assert both.least.radius == pytest.approx(one.least.radius, rel=1e-7)
+    assert both.lower_bound == wide.lower_bound == pytest.approx(one.lower_bound, rel=1e-9)
+    assert wide.least.radius > 1.05 * wide.lower_bound
+    assert wide.least.cam.extremes.least_convex_radius.value >= 0.045 * (1.0 - 1e-9)

@@ -380,6 +380,11 @@ class CutFile(Cutting, title="a file"):
         writing.check_name(Path(self.name))
         format_of(Path(self.name), self.format)
 
+    def check_writer(self) -> None:
+        """Refuse a format whose writer is not installed, before anything is computed for it."""
+        if format_of(Path(self.name), self.format).startswith("dxf"):
+            _ezdxf()
+
     def write(self, outline: Outline, file: Path, *, force: bool = False) -> Path:
         """The file of a closed curve at a place, written whole or not at all; `force` replaces other contents."""
         writing.check_place(file)

@@ -102,6 +102,18 @@ def test_best_laws_are_those_of_the_library_and_bear_forces(tmp_path: Path) -> N
     assert reply["forces"]["speed"] == pytest.approx(2.0 * np.pi * 200 / 60)
 
 
+def test_the_best_laws_without_a_prime_circle_are_on_the_least_one_of_modified_sine(tmp_path: Path) -> None:
+    reply = told_of(tmp_path, LAWS.replace('prime_radius = "50 mm"\n', ""))
+    moves = [Rise("35 mm", "120 deg", law="modified sine"), Dwell("90 deg")]
+    usual = Cycle([*moves, Return(duration="100 deg", law="modified sine"), Dwell()], speed="200 rpm")
+    least = least_prime_circle(usual, TranslatingRoller("12 mm"), pressure_angle="25 deg")
+    assert reply["prime_radius"] == pytest.approx(least.radius, rel=2e-7)
+    assert reply["greatest_pressure_angle"]["high"] <= np.radians(25.0) * (1.0 + 1e-6)
+    values = {each["name"]: each["change"] for each in reply["usual_law"]["values"]}
+    assert values["peak acceleration"] < -0.1
+    assert values["prime circle"] == pytest.approx(0.0, abs=1e-6)
+
+
 def test_the_least_prime_circle_is_that_of_the_library(tmp_path: Path) -> None:
     page, reply, _ = done(tmp_path, BASE)
     assert "of the laws of least acceleration" in page
@@ -207,7 +219,12 @@ def test_a_barrel_has_its_flanks_tabled(tmp_path: Path) -> None:
     ("text", "old", "new", "message"),
     [
         (LAWS, 'pressure_angle = "25 deg"\n', "", "pressure_angle"),
-        (LAWS, 'prime_radius = "50 mm"\n', "", "prime_radius is missing.*best = 'prime circle'"),
+        (
+            LAWS,
+            'prime_radius = "50 mm"\npressure_angle = "25 deg"\n',
+            "",
+            "prime_radius is missing.*best = 'prime circle'",
+        ),
         (PAIR, 'prime_radius = "60 mm"\n', "", "prime_radius is missing.*the least one that keeps them is taken"),
         (LAWS, '"laws"', '"law"', "best"),
         (BASE, "speed", 'prime_radius = "9 mm"\nspeed', "best = 'prime circle' computes prime_radius"),

@@ -36,6 +36,12 @@ def test_forces_are_drawn_with_the_pressure_where_it_is_known() -> None:
     for width, panels in ((None, 2), ("20 mm", 3)):
         figure = forces_figure(CamForces(cam, speed="200 rpm", drive=drive, width=width), "Forces")
         assert len(figure.axes) == panels
+    usual = CamForces(cam, speed="100 rpm", drive=drive)
+    contact, torque = forces_figure(CamForces(cam, speed="200 rpm", drive=drive), "F", usual=("slow", usual)).axes
+    for axes, curve in ((contact, usual.contact_force), (torque, usual.shaft_torque)):
+        (beside,) = (line for line in axes.lines if line.get_label() == "slow")
+        degrees, values = (np.asarray(part, dtype=float) for part in beside.get_data())
+        assert values == pytest.approx(curve(np.radians(degrees)), abs=1e-6 * np.abs(values).max())
 
 
 @pytest.mark.parametrize("kind", ["translating roller", "oscillating roller"])
