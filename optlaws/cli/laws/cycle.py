@@ -202,14 +202,19 @@ def _save(latest: OldTable, place: Path, source: Path, speed: str | None) -> Pat
     from optlaws.files.writing import MARK, write
     from optlaws.laws import MotionLaw
 
-    stretches = []
+    stretches, laws = [], {}
     for number, part in enumerate(latest.stretches, start=1):
         if isinstance(part.law, MotionLaw):
             beside = place.with_name(f"{place.stem}_{number}_{part.kind}.json")
-            save_json(beside, {"law": part.law.to_dict()})
+            laws[beside] = part.law
             stretches.append(replace(part, law=str(beside)))
         else:
             stretches.append(part)
+    with located(_SEGMENTS):
+        # the cycle as a whole, before the first file is written
+        latest.cycle(speed=speed).solve()
+    for beside, law in laws.items():
+        save_json(beside, {"law": law.to_dict()})
     with located(_SEGMENTS):
         cycle = replace(latest, stretches=tuple(stretches)).cycle(speed=speed)
     return write(place, f"# from {source.name}; {MARK}\n{cycle.to_toml(f'The cam of {source.name}', axis='cam')}")

@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from optlaws.cycles.old_tables.stretches import Stretch, gain, law_of_move, nothing_to_better
+from optlaws.cycles.old_tables.peak_intervals import PeakInterval
+from optlaws.cycles.old_tables.stretches import Stretch, gain, law_of_move, moves_at_ends, nothing_to_better
 from optlaws.cycles.old_tables.table import OldTable
 from optlaws.kept import kept_property
 from optlaws.laws.report import law_panels
@@ -21,6 +22,7 @@ from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import NO_MARK
 
 _OLD, _NEW, _POINTS = 0, 1, 2  # colours
+_WORTH_NAMING = 2.0  # %, of a gain that is no better known
 
 
 @dataclass(frozen=True)
@@ -34,7 +36,18 @@ class OldTableReport:
     def facts(self) -> Summary:
         """What the file is, how near the laws are to its points, and which moves keep their laws."""
         read = Row(f"{self.table.layout}, {len(self.table.places)} points")
-        return Summary([read, *map(Row, self.table.remarks), *map(Row, self.unchanged)])
+        return Summary([read, *map(Row, [*self.table.remarks, *self.unchanged, *self.certain])])
+
+    @property
+    def certain(self) -> Iterator[str]:
+        """What of the gains is certain, where the old peaks are not known as well as the new ones."""
+        for part, was in self._pairs:
+            if part.law is not was.law and was.peaks:
+                least, most = (100.0 * share for share in gain(part, was).shares(2))
+                known = was.peaks[1].is_known
+                change = f"changes by {least:+.3g} to {most:+.3g} %" if known else f"changes by {most:+.3g} % at most"
+                if most - least > _WORTH_NAMING:
+                    yield f"{part.kind} from {part.start:g}: the acceleration {change}, as far as the points tell"
 
     @property
     def unchanged(self) -> Iterator[str]:
@@ -42,7 +55,9 @@ class OldTableReport:
         for part, was in self._pairs:
             if part.law is was.law:
                 what = nothing_to_better(law_of_move(part))
-                why = f"it is {what}" if what else "none of degree 15 so near has less acceleration"
+                moving = "it moves at an end, where no law from rest to rest is in its place"
+                ends = moving if moves_at_ends(law_of_move(part)) else "none of degree 15 so near has less acceleration"
+                why = f"it is {what}" if what else ends
                 yield f"the {part.kind} from {part.start:g} keeps its law: {why}"
 
     @property
@@ -113,11 +128,25 @@ class OldTableReport:
             for part in (new or old).stretches
         ]
         known = {name: getattr(old, name) for name in ("unit", "master", "room", "scatter", "seam")}
-        facts = {"layout": old.layout, "points": len(old.places), **known, "stretches": stretches}
+        peaks = [_plain(interval) for interval in old.peaks]
+        facts = {"layout": old.layout, "points": len(old.places), **known, "stretches": stretches, "peaks": peaks}
+        facts["outliers"] = [float(old.places[i]) for i in old.outliers]
         if new is None:
             return facts
-        peaks = ({"old": list(map(bounded, each.old)), "new": list(map(bounded, each.new))} for each in new.gains(old))
-        return facts | {"gains": [each._asdict() | ends for each, ends in zip(new.gains(old), peaks, strict=True)]}
+        ends = (
+            {
+                "old": list(map(bounded, each.old)),
+                "new": list(map(bounded, each.new)),
+                "intervals": list(map(_plain, each.intervals)),
+            }
+            for each in new.gains(old)
+        )
+        return facts | {"gains": [each._asdict() | ends for each, ends in zip(new.gains(old), ends, strict=True)]}
+
+
+def _plain(interval: PeakInterval) -> dict[str, float | None]:
+    """An interval for JSON; None where a peak cannot be known from the table."""
+    return {"low": interval.low, "high": bounded(interval.high)}
 
 
 @lru_cache(maxsize=256)

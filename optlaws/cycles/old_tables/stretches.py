@@ -148,6 +148,7 @@ def position(part: Stretch, places: Array) -> Array:
 
 
 _WITHIN_TOLERANCE = 1e-6  # of a tolerance: a new law that is beyond it by no more is within it, but for rounding
+_AT_REST = 1e-6  # of a law's greatest velocity: at its ends it rests if it has less
 _MODERNISED_JERK = 1.2  # of an old law's greatest jerk: what a law of less acceleration in its place may have
 
 #: places of the spline that stands for the old law in the window of the new one, more where they are too few
@@ -167,6 +168,8 @@ class MoveGain(NamedTuple):
         The peaks of velocity, acceleration and jerk by the master; inf where one has no greatest value.
     deviation
         The greatest difference of positions, over the whole move.
+    intervals
+        Between which values the old peaks are by the table; empty where the old move is of no table.
 
     Examples
     --------
@@ -180,6 +183,22 @@ class MoveGain(NamedTuple):
     old: tuple[float, float, float]
     new: tuple[float, float, float]
     deviation: float
+    intervals: tuple[PeakInterval, ...] = ()
+
+    def shares(self, nu: int) -> tuple[float, float]:
+        """The least and the greatest relative change of the peak of order nu, 1 to 3, that the table leaves open.
+
+        Examples
+        --------
+        >>> known = PeakInterval(0.9, 1.1), PeakInterval(1.6, 2.5), PeakInterval(2.5, float("inf"))
+        >>> gain = MoveGain("rise", 0.0, 120.0, (1.0, 2.0, 3.0), (1.0, 1.5, 3.3), 0.05, known)
+        >>> [round(share, 3) for share in gain.shares(2)], gain.shares(3)[0]
+        ([-0.4, -0.062], -1.0)
+        """
+        if not self.intervals:
+            return self.share(nu), self.share(nu)
+        low, high = self.intervals[nu - 1]
+        return self.new[nu - 1] / high - 1.0, self.new[nu - 1] / low - 1.0 if low > 0.0 else float("inf")
 
     def share(self, nu: int) -> float:
         """The relative change of the peak of order nu, 1 to 3; nan if the old one is infinite or 0."""
@@ -195,7 +214,7 @@ def better(part: Stretch, room: float, order: int, degree: int, start: Solution 
     if part.law is None:
         return part
     old, share = law_of_move(part), room / abs(part.stroke)
-    if nothing_to_better(old) or share < least_distance(old, order, degree):
+    if nothing_to_better(old) or moves_at_ends(old) or share < least_distance(old, order, degree):
         return part
     for places in _PLACES:
         start = solution = _nearby(old, share, places, (order, degree), start)
@@ -216,6 +235,15 @@ def nothing_to_better(old: MotionLaw) -> str:
     if old.constants.C.value == 0.0:
         return "at constant velocity, without acceleration or jerk"
     return "at constant acceleration, without jerk" if old.constants.J.value == 0.0 else ""
+
+
+def moves_at_ends(old: MotionLaw) -> bool:
+    """Whether a law begins or ends with a velocity, so that no law from rest to rest is in its place.
+
+    >>> moves_at_ends(catalogue["constant velocity"].law), moves_at_ends(catalogue["cycloidal"].law)
+    (True, False)
+    """
+    return max(abs(float(old.b(0.0))), abs(float(old.b(1.0)))) > _AT_REST * old.constants.B.value
 
 
 def least_distance(old: MotionLaw, order: int, degree: int) -> float:
@@ -258,7 +286,7 @@ def gain(new: Stretch, old: Stretch) -> MoveGain:
         (B.value * size / length, C.value * size / length**2, J.value * size / length**3)
         for B, C, J in ((law.constants.B, law.constants.C, law.constants.J) for law in laws)
     )
-    return MoveGain(old.kind, old.start, old.stop, before, after, size * deviation(*laws))
+    return MoveGain(old.kind, old.start, old.stop, before, after, size * deviation(*laws), old.peaks)
 
 
 def deviation(law: MotionLaw, other: MotionLaw) -> float:
