@@ -152,10 +152,9 @@ def rest(start: float, length: float, level: Array | float) -> DriveStretch:
 
 def of_space(space: LawSpace) -> list[DriveStretch]:
     """The drives of all laws of a space at once: a column for each free function, the base law's last."""
-    breaks: Sequence[float] = getattr(space, "breaks", (0.0, 1.0))
     x = chebyshev.nodes(_terms(space))
     drives = []
-    for low, high in pairwise(breaks):
+    for low, high in pairwise(space.breaks):
         k = low + 0.5 * (high - low) * (x + 1.0)
         values = np.stack([_values(space, nu, k) for nu in range(3)], axis=1)
         series = chebyshev.from_values(values.reshape(len(k), -1)).reshape(values.shape)

@@ -124,7 +124,7 @@ class OutputConstant(Functional):
         else:
             check_rest(self.name, space)
         states, direct = self.machine.rows[self.output]
-        if direct[2] and getattr(space, "continuity", 2) < 1:
+        if direct[2] and space.continuity < 1:
             raise InputError(f"{self.output!r} is beyond every bound where the velocity jumps: give a continuity of 1")
         panels = [(panel.start, panel.length, panel.output(states, direct)) for panel in self._moved(space)]
         for *_, series in panels:
@@ -222,7 +222,7 @@ class OutputPeak(OutputConstant):
         if len(wide) == 1:
             return (LinearFamily(self.name, slack, bound, self.signs, domain, series=wide[0]),)
         # the output jumps where the acceleration does: at breaks, or where the motion ends
-        smooth = getattr(space, "continuity", 2) > 1 and space.boundary.order > 2
+        smooth = space.continuity > 1 and space.boundary.order > 2
         jumps = bool(self.machine.rows[self.output][1][2]) and not smooth
         entries = self.name, slack, bound, self.signs, domain
         return (LinearFamily(*entries, series=wide, breaks=np.append(breaks, -1.0), jumps=jumps),)

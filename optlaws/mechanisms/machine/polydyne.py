@@ -295,11 +295,10 @@ def check_order(name: str, space: LawSpace, order: int) -> None:
             f"{name} needs mass laws from rest to rest, derivatives 1 to {order - 1} zero at both ends, "
             f"got {shortened(boundary)}"
         )
-    continuity = getattr(space, "continuity", order)
-    if continuity < order - 1:
+    if space.continuity < order - 1:
         raise InputError(
             f"{name} needs mass laws whose derivatives up to {order - 1} are continuous at the breaks, so that its "
-            f"cam's {jump} does not jump; give a continuity of at least {order - 1}, got {continuity}"
+            f"cam's {jump} does not jump; give a continuity of at least {order - 1}, got {space.continuity}"
         )
 
 

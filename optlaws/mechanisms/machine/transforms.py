@@ -276,7 +276,7 @@ def velocity_transforms(space: LawSpace, w: Complex, highest: float) -> Complex:
 
 def _gauss_rule(space: LawSpace, highest: float) -> tuple[Array, Array]:
     """Gauss points on every piece of the law, enough for a vibration of the highest frequency, and weights."""
-    breaks = np.array(getattr(space, "breaks", (0.0, 1.0)))
+    breaks = np.array(space.breaks)
     degree = 1 + space.degree_of(1)
     x, weights = np.polynomial.legendre.leggauss(degree + ceil(0.5 * highest) + _GAUSS_SPARE)
     lengths = np.diff(breaks)

@@ -36,7 +36,9 @@ class PieceSeries:
         piece = np.clip(np.searchsorted(-self.breaks, -u, side="right") - 1, 0, count - 1)
         high, low = self.breaks[piece], self.breaks[piece + 1]
         slope = 2.0 / (high - low)
-        return piece, np.clip((u - low) * slope - 1.0, -1.0, 1.0), slope
+        # of one polynomial on [-1, 1] the variable is u itself, without rounding
+        local = (u - low) * slope - 1.0 if count > 1 else u * slope - (high + low) / (high - low)
+        return piece, np.clip(local, -1.0, 1.0), slope
 
     def derivative(self) -> PieceSeries:
         """Series of the derivative by u."""
@@ -51,6 +53,8 @@ class PieceSeries:
 
     def sums(self, basis: NDArray[np.floating[Any]], piece: NDArray[np.intp]) -> Array:
         """Columns at points of pieces from the Chebyshev polynomials there; many points of a piece share its series."""
+        if len(self.series) == 1:
+            return np.asarray(basis @ self.series[0])
         if len(piece) < _SHARING * len(self.series):
             return np.asarray(np.einsum("pm,pmc->pc", basis, self.series[piece]))
         columns = np.empty((len(piece), self.series.shape[2]))
@@ -65,7 +69,8 @@ class PieceSeries:
     def global_places(self, piece: int, local: Array) -> Array:
         """The u of local places on a piece."""
         high, low = self.breaks[piece], self.breaks[piece + 1]
-        places: Array = low + (local + 1.0) * (high - low) / 2.0
+        half = (high - low) / 2.0
+        places: Array = low + (local + 1.0) * half if len(self.series) > 1 else (high + low) / 2.0 + half * local
         return places
 
     @kept_property

@@ -7,12 +7,12 @@ Gegenbauer series (of index l + 1/2 and l - 3/2): every free function has a clos
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import lru_cache
+from sys import maxsize
 from typing import Any
 
 import numpy as np
-from numpy.polynomial import chebyshev, legendre
+from numpy.polynomial import chebyshev
 
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
@@ -20,49 +20,10 @@ from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import basis_values, from_values, gegenbauer, nodes
 from optlaws.synthesis.families.family import ConstraintFamily, EvenFamily, LinearFamily, RatioFamily
 from optlaws.synthesis.families.names import RowName
+from optlaws.synthesis.families.piece_series import PieceSeries
+from optlaws.synthesis.spaces.divided_rows import chord
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, law_from_z
-from optlaws.synthesis.spaces.space import LawSpace, Quadrature
-
-
-def chord(jerk: Callable[[Array], Array], u: Array, centre: float, degree: int) -> Array:
-    """(b - b0) / (u - u0)² at points u where b has the value b0 and no slope at u0; by an integral, so nothing cancels.
-
-    Parameters
-    ----------
-    jerk
-        Columns of j at points u = 1 - 2k, shape (points, columns); polynomials of a degree.
-    u, centre
-        The points and u0.
-    degree
-        The degree of b.
-
-    Examples
-    --------
-    >>> chord(lambda u: np.full((len(u), 1), 8.0), np.array([0.25]), 0.5, 2)  # b = 1 + (u - 0.5)²
-    array([[1.]])
-    """
-    # by Taylor the mean of b'' with the weight 1 - s, and b'' by u is j/4
-    return _mean(jerk, u, centre, degree, lambda share: 1.0 - share) / 4.0
-
-
-def kink(acceleration: Callable[[Array], Array], u: Array, centre: float, degree: int) -> Array:
-    """(b - b0) / |u - u0| on one side of u0 where b has a kink; otherwise as `chord`.
-
-    >>> kink(lambda u: np.full((len(u), 1), -4.0), np.array([0.75]), 0.5, 1)  # b = 1 + 2 (u - 0.5)
-    array([[2.]])
-    """
-    side = np.sign(u - centre)[:, None]
-    return -side * _mean(acceleration, u, centre, degree, np.ones_like) / 2.0
-
-
-def _mean(
-    values: Callable[[Array], Array], u: Array, centre: float, degree: int, weight: Callable[[Array], Array]
-) -> Array:
-    x, weights = legendre.leggauss(degree // 2 + 2)
-    share = (1.0 + x) / 2.0
-    places = centre + np.outer(u - centre, share)
-    columns = values(places.reshape(-1)).reshape(len(u), len(share), -1)
-    return np.asarray(np.einsum("psc,s->pc", columns, weights * weight(share) / 2.0))
+from optlaws.synthesis.spaces.space import LawSpace
 
 
 class PolynomialSpace(LawSpace):
@@ -87,13 +48,12 @@ class PolynomialSpace(LawSpace):
     """
 
     def __init__(self, boundary: BoundaryConditions, degree: int, *, symmetric: bool) -> None:
-        super().__init__()
+        super().__init__((0.0, 1.0), maxsize, symmetric=symmetric)
         #: the places of the last columns, as bytes, with Chebyshev polynomials there
         self._last_basis: tuple[bytes, Array] = (b"", np.empty((0, 0)))
-        self.boundary, self.degree, self.symmetric = boundary, degree, symmetric
+        self.boundary, self.degree = boundary, degree
         self.order = boundary.order
         self.at_rest = boundary == BoundaryConditions.rest(self.order)
-        self.domain = (0.0, 1.0) if symmetric else (-1.0, 1.0)
         self.base = law_from_z(boundary)
         self.start_velocity = float(self.base.b(0.0))
         self.velocity_change = float(self.base.b(1.0)) - self.start_velocity
@@ -176,22 +136,13 @@ class PolynomialSpace(LawSpace):
             mirrored[::2] = 0.0
         return mirrored
 
-    def given(self, series: Array, size: int, *, jumps: bool = False) -> dict[str, Any]:
-        del jumps
-        return {"series": self.widened(series, size)}
+    def pieces(self, nu: int) -> PieceSeries:
+        """The series on the whole interval, of symmetric laws too."""
+        return PieceSeries(np.array([1.0, -1.0]), self.series(nu)[None])
 
-    def turned(self, series: Array) -> Array:
-        """The series with the sign of odd terms changed."""
-        return series * (-1.0) ** np.arange(len(series))[:, None]
-
-    def combined(self, nu: int, weights: tuple[float, ...]) -> Array:
-        if weights == (1.0,):
-            return self.series(nu)
-        total = np.zeros_like(self.series(nu))
-        for i, weight in enumerate(weights):
-            terms = self.series(nu + i)
-            total[: len(terms)] += weight * terms[: len(total)]
-        return total
+    def given(self, series: PieceSeries, size: int, *, jumps: bool = False) -> dict[str, Any]:
+        """Columns of families of one polynomial."""
+        return {"series": self.widened(series.series[0], size), "jumps": jumps}
 
     def backward(self, slack: Array, bound: float) -> LinearFamily:
         """Rows -b <= slack . x + bound; b is even about 1/2 where the law is symmetric."""
@@ -200,14 +151,6 @@ class PolynomialSpace(LawSpace):
         series = self.widened(self.series(1)[::2], len(slack))
         return EvenFamily(RowName.VELOCITY, slack, bound, (-1.0,), series=series)
 
-    def quadrature(self, nu: int) -> Quadrature:
-        """Gauss points; moments are Legendre polynomials."""
-        series = self.series(nu)
-        u, weights = legendre.leggauss(len(series) + 1)
-        values = chebyshev.chebvander(u, len(series) - 1) @ series
-        moments = np.asarray(legendre.legvander(u, len(series)), dtype=np.float64)
-        return Quadrature(weights / 2.0, values, moments)
-
     def columns(self, nu: int, u: Array) -> Array:
         """The derivative of order nu at places u = 1 - 2k: free functions, then the base law."""
         series, key, known = self.series(nu), u.tobytes(), self._last_basis
@@ -215,9 +158,6 @@ class PolynomialSpace(LawSpace):
             # derivatives are asked for at the same places, the lowest mostly first
             known = self._last_basis = key, basis_values(np.clip(u, -1.0, 1.0), len(self.series(0)))
         return np.asarray(known[1][:, : len(series)] @ series)
-
-    def degree_of(self, nu: int) -> int:
-        return len(self.series(nu)) - 1
 
     def row(self, nu: int, k: float) -> Array:
         if k in {0.0, 1.0} and nu < self.order:

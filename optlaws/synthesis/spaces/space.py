@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.polynomial import legendre
 
+from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 from optlaws.synthesis.families.family import (
@@ -18,6 +20,8 @@ from optlaws.synthesis.families.family import (
     ProductFamily,
 )
 from optlaws.synthesis.families.names import RowName
+from optlaws.synthesis.families.piece_series import PieceSeries
+from optlaws.synthesis.spaces.divided_rows import below_peak
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
 _CACHED = 32
@@ -43,31 +47,36 @@ class Quadrature:
 
 
 class LawSpace(ABC):
-    """Laws base + sum x_i f_i. Variables beyond `terms` belong to the program.
+    """Laws base + sum x_i f_i, polynomials between breaks. Variables beyond `terms` belong to the program.
 
     Attributes
     ----------
     boundary
         End conditions.
-    terms
-        Number of coordinates.
+    breaks
+        All breaks of the laws, of both halves.
+    continuity
+        Order up to which the derivatives of every law are continuous at the breaks.
     symmetric
         Whether the laws are; then constraints need to hold on the first half only.
     domain
         The least and the greatest u = 1 - 2k at which constraints need to hold.
+    terms
+        Number of coordinates.
     start_velocity, velocity_change, stroke
         b(0), b(1) - b(0) and a(1) - a(0) of the base law.
     """
 
     boundary: BoundaryConditions
     terms: int
-    symmetric: bool
-    domain: tuple[float, float]
     start_velocity: float
     velocity_change: float
     stroke: float
 
-    def __init__(self) -> None:
+    def __init__(self, breaks: tuple[float, ...], continuity: int, *, symmetric: bool) -> None:
+        self.breaks, self.continuity, self.symmetric = breaks, continuity, symmetric
+        self.domain = (0.0, 1.0) if symmetric else (-1.0, 1.0)
+        self._pieces: dict[int, PieceSeries] = {}
         self._cache: dict[Hashable, Array] = {}
 
     def cached(self, key: Hashable, make: Callable[[], Array]) -> Array:
@@ -109,17 +118,28 @@ class LawSpace(ABC):
         given = self.given(self.combined(nu, weights), len(slack), jumps=self.jumps(nu + len(weights) - 1))
         return LinearFamily(name, slack, bound, signs, self.domain, **given)
 
-    @abstractmethod
-    def combined(self, nu: int, weights: tuple[float, ...]) -> Any:
+    def combined(self, nu: int, weights: tuple[float, ...]) -> PieceSeries:
         """Series of w0 a^(nu) + w1 a^(nu+1) + ..., the base law's as the last column."""
+        self._finite(nu + len(weights) - 1)
+        lowest = self.pieces(nu)
+        if weights == (1.0,):
+            return lowest
+        series = weights[0] * lowest.series
+        for i, weight in enumerate(weights[1:], 1):
+            terms = self.pieces(nu + i).series
+            series[:, : terms.shape[1]] += weight * terms[:, : series.shape[1]]
+        return PieceSeries(lowest.breaks, series)
 
-    @abstractmethod
-    def given(self, series: Any, size: int, *, jumps: bool = False) -> dict[str, Any]:
-        """Columns of families over `size` variables for series of a function, which may jump at edges."""
+    def _finite(self, nu: int) -> None:
+        if nu > self.continuity + 1 and len(self.breaks) > 2:
+            raise InputError(
+                f"with continuity {self.continuity} the derivative of order {nu} has impulses at the breaks, which are "
+                f"beyond every bound: give a continuity of at least {nu - 1}"
+            )
 
-    @abstractmethod
-    def turned(self, series: Any) -> Any:
-        """The series of the same functions of -u."""
+    def given(self, series: PieceSeries, size: int, *, jumps: bool = False) -> dict[str, Any]:
+        """Columns of families over `size` variables for series of a function, which may jump at breaks."""
+        return {"series": self.widened(series.series, size), "breaks": series.breaks, "jumps": jumps}
 
     def backward(self, slack: Array, bound: float) -> LinearFamily:
         """Rows -b <= slack . x + bound."""
@@ -137,37 +157,45 @@ class LawSpace(ABC):
         return NormFamily(name, slack, bound, matrix=self.widened(matrix, len(slack)))
 
     @abstractmethod
+    def pieces(self, nu: int) -> PieceSeries:
+        """Series of the derivative of order nu between breaks of the domain, the base law's column last."""
+
     def columns(self, nu: int, u: Array) -> Array:
         """The derivative of order nu at places u = 1 - 2k, shape (places, terms + 1): the base law's is the last."""
+        self._finite(nu)
+        return self.pieces(nu).values(u)
 
-    @abstractmethod
     def degree_of(self, nu: int) -> int:
         """The degree in k of the derivative of order nu, on every piece."""
+        return int(self.pieces(nu).series.shape[1]) - 1
 
     @property
     def edges(self) -> tuple[float, ...]:
-        """The u between which every function is one polynomial, descending."""
-        return (1.0, -1.0)
+        """The u between which every function is one polynomial, descending, in the domain."""
+        return tuple(self.pieces(2).breaks.tolist())
 
-    def jumps(self, nu: int) -> bool:  # noqa: ARG002 - none where laws are polynomials
-        """Whether the derivative of order nu may jump at an edge."""
-        return False
+    def jumps(self, nu: int) -> bool:
+        """Whether the derivative of order nu may jump at a break."""
+        return nu > self.continuity
 
     def vanishing(self, nu: int) -> int:  # noqa: ARG002 - none where end conditions are kept by every function
         """How many dimensions of the free functions have no derivative of order nu."""
         return 0
 
-    @abstractmethod
     def row(self, nu: int, k: float) -> Array:
         """The derivative of order nu at k: free functions, then the base law."""
+        return np.asarray(self.pieces(nu).values(np.array([1.0 - 2.0 * k]))[0])
 
     def end_row(self, nu: int, k: float) -> Array:
         """The row of a derivative that the end conditions give, at 0 or at 1: without rounding."""
         return np.append(np.zeros(self.terms), float((self.boundary.end if k else self.boundary.start)[nu]))
 
-    @abstractmethod
     def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
-        """Rows b <= b(peak) of laws with c(peak) = 0; symmetric ones have their peak at 1/2."""
+        """Rows b <= b(peak) of laws with c(peak) = 0, divided by their zeros there; symmetric ones have it at 1/2."""
+        centre = 1.0 - 2.0 * peak
+        smooth = self.continuity > 1 or centre not in self.pieces(2).breaks
+        series = below_peak(self.pieces(2), self.pieces(3), centre, smooth=smooth)
+        return LinearFamily(RowName.BELOW_PEAK, slack, domain=self.domain, **self.given(series, len(slack), jumps=True))
 
     def forward(self, slack: Array) -> ConstraintFamily:
         """Rows b >= 0, which may be divided by their zeros at the ends for laws from rest to rest."""
@@ -178,12 +206,19 @@ class LawSpace(ABC):
     ) -> ConstraintFamily:
         """Rows |b| / sqrt(2k) <= slack . x for k up to 1/2; |b| / sqrt(2 - 2k) for the other half where `backward`."""
         series = self.combined(1, weights)
-        given = self.given(self.turned(series) if backward else series, len(slack))
+        given = self.given(series.mirrored() if backward else series, len(slack))
         return LinearFamily(name, slack, 0.0, (1.0, -1.0), (0.0, 1.0), root=True, mirrored=backward, **given)
 
-    @abstractmethod
     def quadrature(self, nu: int) -> Quadrature:
-        """A rule that is exact for the squares of the derivative of order nu, and moments that determine it."""
+        """A rule exact for squares of the derivative of order nu, Gauss's on every piece, and Legendre polynomials."""
+        self._finite(nu)
+        pieces = self.pieces(nu)
+        count, number = pieces.series.shape[1] + 1, len(pieces.series)
+        x, weights = legendre.leggauss(count)
+        u = np.concatenate([pieces.global_places(i, x) for i in range(number)])
+        shares = (pieces.breaks[:-1] - pieces.breaks[1:]) / (pieces.breaks[0] - pieces.breaks[-1])
+        moments = np.asarray(np.kron(np.eye(number), legendre.legvander(x, count - 1)), dtype=np.float64)
+        return Quadrature(np.concatenate([share * weights / 2.0 for share in shares]), pieces.values(u), moments)
 
     def equations(self) -> list[Equation]:
         """Conditions that the coordinates must keep; none where the free functions keep them all."""

@@ -23,7 +23,7 @@ from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.families.piece_series import PieceSeries
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, law_from_z
-from optlaws.synthesis.spaces.piecewise_space import PiecewiseSpace
+from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.tolerances import ROUNDOFF
 
@@ -31,7 +31,7 @@ _VELOCITY_CHANGE = 16.0 * ROUNDOFF  # of accelerations: what their mean may miss
 _EVEN_PART = 1e-9  # of the greatest singular value: less is no even part
 
 
-class SplineSpace(PiecewiseSpace):
+class SplineSpace(LawSpace):
     """Laws (8) with the given end conditions and Z in a piecewise basis, or, if `symmetric`, its part odd about 1/2.
 
     >>> from optlaws import BSplines
