@@ -504,11 +504,11 @@ class CamResult:
 
 def _of_laws(plan: Plan) -> dict[str, Any]:
     """The laws for programs, in SI units: what is least, its bound and status, and what is taken of each limit."""
-    found = bool(plan.solutions)
+    solved = bool(plan.solutions)
     return {
         "minimise": plan.minimise,
-        "objective": plan.objective if found else None,
-        "lower_bound": plan.lower_bound if found else None,
+        "objective": plan.objective if solved else None,
+        "lower_bound": plan.lower_bound if solved else None,
         "status": plan.status.value,
         "search_space": plan.search_space,
         "limits": [
