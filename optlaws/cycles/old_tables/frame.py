@@ -11,6 +11,7 @@ from optlaws.motion.quantities import either, quantity
 from optlaws.numbers import Array, Quantity
 
 _TURN = 360.0  # deg of the master of a cycle in a turn
+_NEAR = 1e-3  # of the positions: by how much more the last one may be off the first one than steps beside it are
 _WHOLE = 1e-6  # of a turn: by how much the last row may be off its end, as digits leave it
 
 
@@ -72,8 +73,8 @@ def closed(
     """
     length, step = float(np.ptp(places)), float(np.diff(places)[-1])
     if turn is None and angle and abs(length + step - _TURN) <= _WHOLE * _TURN:
-        near = abs(heights[-1] - heights[0]) <= 2.0 * np.abs(np.diff(heights)).max()
-        turn = _TURN if near or advance is not None else None
+        beside = 2.0 * np.abs(np.diff(heights)[[0, -1]]).max() + _NEAR * np.ptp(heights)
+        turn = _TURN if advance is not None or abs(heights[-1] - heights[0]) <= beside else None
     if turn is None or abs(turn - length) <= _WHOLE * turn:
         if advance is not None and abs(heights[-1] - heights[0] - advance) > 1e-3 * np.ptp(heights):
             raise InputError(

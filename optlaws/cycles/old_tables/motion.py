@@ -33,6 +33,8 @@ _SIMPLE = 6
 _UNCERTAIN = 3.0
 #: of a peak of a standard law, by which places of its ends that are rounded may change it
 _ROUNDED_LAW = 1e-3
+#: times the greatest peak of models: rows that have more speak against all of them
+_AT_ODDS = 1.02
 #: rows farther off a standard law, in standard deviations, are far off it, if they are few of all
 _FAR, _FEW = 6.0, 0.04
 #: standard laws whose sums of squares differ by less are told apart by no table
@@ -420,7 +422,7 @@ class _Region:
                     each.peak(i, nu) * (1.0 + _UNCERTAIN * each.uncertainty(i, nu)) for each in chains
                 )
                 most = most_peak(simple, nu, low, high) if simple else 0.0
-                peaks.append(self._interval(nu, low, high, max(standard, most)))
+                peaks.append(self._interval(nu, low, high, max(standard, most), variance))
             yield FittedMove(low, high, first, last, tuple(fits), name, name, tuple(peaks))
 
     def _of_fits(self, fits: Sequence[CurveFit], places: Sequence[float], near: Sequence[str]) -> Iterator[FittedMove]:
@@ -434,14 +436,16 @@ class _Region:
         nodes = [best.start, *(_turn(best, place) for place in places[1:-1]), best.stop]
         for (low, high), nearest in zip(pairwise(nodes), near, strict=True):
             first, last = map(float, best.values(np.array([low, high])))
-            peaks = [self._interval(nu, low, high, most_peak(fits, nu, low, high)) for nu in (1, 2, 3)]
+            peaks = [self._interval(nu, low, high, most_peak(fits, nu, low, high), best.variance) for nu in (1, 2, 3)]
             yield FittedMove(low, high, first, last, tuple(fits), "", nearest, tuple(peaks))
 
-    def _interval(self, nu: int, low: float, high: float, most: float) -> PeakInterval:
+    def _interval(self, nu: int, low: float, high: float, most: float, variance: float = 1.0) -> PeakInterval:
+        """The interval of a peak, for noise of the variance about the model where that is more than by differences."""
         inside = (self.x >= low) & (self.x <= high)
-        x, y, noise = self.x[inside], self.y[inside], self.noise[inside]
+        x, y, noise = self.x[inside], self.y[inside], self.noise[inside] * np.sqrt(max(variance, 1.0))
         least = least_peak(x, y, noise, self.digit, nu) if len(x) > nu + 1 else 0.0
-        return PeakInterval(least, max(most, least))
+        # models with less than the rows have do not hold
+        return PeakInterval(least, max(most, least) if least <= _AT_ODDS * most else np.inf)
 
 
 def _turning_points(y: Array, room: float) -> list[int]:

@@ -452,7 +452,7 @@ def split_table(
     return 160 to 260 deg, -20 mm: modified trapezoid (within 4.2e-05 mm)
     dwell  260 to 360 deg
     within 0.0001 mm of the points
-    greatest velocity 0.3992 to 0.4004 mm/deg, acceleration 0.009775 to 0.009786 mm/deg², jerk 0.00119 to 0.00123 mm/deg³
+    greatest velocity 0.3992 to 0.4004 mm/deg, acceleration 0.009775 to 0.009786 mm/deg², jerk 0.00119 to 0.00123 ...
     """
     places, heights = np.array(numbers(x, "x")), np.array(numbers(y, "y"))
     if places.shape != heights.shape or places.ndim != 1 or len(places) < FEWEST_POINTS:
