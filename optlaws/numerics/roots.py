@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from math import inf, isfinite
 
 import numpy as np
 
@@ -18,6 +19,8 @@ _TURNS = 3
 _CHANDRUPATLA = 100
 #: how near its ends, in shares of a bracket, the first place is
 _EDGE = 0.05
+#: steps of a secant to a falling root, and how far from the ends of a bracket in shares of it
+_FALLING, _BEYOND = 40, 1e-3
 
 
 def sign_changes(functions: Callable[[Array], Array], edges: Sequence[float], count: int) -> Array:
@@ -148,6 +151,46 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float) 
     ends = np.array([low]), np.array([high])
     values = np.array([function(low)]), np.array([function(high)])
     return float(bracketed_roots(lambda x: np.array([function(float(x[0]))]), ends, values)[0])
+
+
+def falling_root(
+    excess: Callable[[float], float], begin: float, step: float, met: float, widest: float = 60.0
+) -> float:
+    """A place at which a falling excess is not above 0, at most `met` beyond one at which it is; infinite without one.
+
+    Sought from a place on in growing steps, then by the secant and a little beyond it; where the excess is infinite it
+    is halved. So far from the first place as `widest`, nothing more is sought: the last place is what is known.
+
+    >>> (
+    ...     round(falling_root(lambda x: np.exp(-x) - 2.0, 0.0, 0.5, 1e-12), 9),
+    ...     falling_root(lambda x: 1.0, 0.0, 0.5, 1e-12),
+    ... )
+    (-0.693147181, inf)
+    """
+    high, wider = begin, step
+    while excess(high) > 0.0:
+        high, wider = high + wider, 2.0 * wider
+        if high > begin + widest:
+            return inf
+    low, wider = high - step, step
+    while excess(low) <= 0.0:
+        high, low, wider = low, low - wider, 2.0 * wider
+        if low < begin - widest:
+            return high
+    above, below = excess(low), excess(high)
+    for _ in range(_FALLING):
+        if high - low <= met or below == 0.0:
+            break
+        middle = 0.5 * (low + high)
+        if isfinite(above):
+            middle = high - below * (high - low) / (below - above)
+            middle = min(max(middle, low + _BEYOND * (high - low)), high - _BEYOND * (high - low))
+        value = excess(middle)
+        if value > 0.0:
+            low, above, below = middle, value, below * 0.5
+        else:
+            high, below, above = middle, value, above * 0.5
+    return high
 
 
 def bisect(holds: Callable[[float], bool], inside: float, outside: float, halvings: int = 200) -> tuple[float, float]:

@@ -16,11 +16,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import inf, isfinite, log, sqrt
+from math import exp, inf, isfinite, log, sqrt
 
 from optlaws.cycles.greatest_speed.timed_spans import (
     TimedSpan,
-    falling_root,
     least_scale,
     limits_of_span,
     slower,
@@ -47,6 +46,7 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import PieceEffort
 from optlaws.motion.piece import Piece, factor, jump_beside
 from optlaws.motion.quantities import Kind
+from optlaws.numerics.roots import falling_root
 from optlaws.sentences import sentence
 from optlaws.synthesis.least_time.move_limits import SpanLimit
 from optlaws.synthesis.problem.problem import Problem
@@ -369,7 +369,8 @@ class ForceRating:
         least = self.search.unrated
         if least and self._over(least) <= 0.0:
             return least
-        period = falling_root(self._over, least or self.search.programme.period, 1.5, LEAST_SCALE_MET)
+        begin = log(least or self.search.programme.period)
+        period = exp(falling_root(lambda logarithm: self._over(exp(logarithm)), begin, log(1.5), LEAST_SCALE_MET))
         if period == inf:
             raise InfeasibleProblem(
                 f"limits: no speed keeps the {self.name} of {self.most:.9g}: the static load alone needs more: "

@@ -10,7 +10,7 @@ inertia and static force are constant: docs/theory/cycles.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import groupby
@@ -32,6 +32,7 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import Kind, in_small_units
 from optlaws.motion.smooth_parts import SmoothParts
 from optlaws.numbers import Array
+from optlaws.numerics.roots import falling_root
 from optlaws.sentences import sentence
 from optlaws.synthesis.functionals.makers import PeakSide, peak
 from optlaws.synthesis.least_time.least_time import LeastTime
@@ -43,7 +44,8 @@ from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.solve import synthesize
 from optlaws.tolerances import AGREEMENT, BINDING_LIMIT, FASTER, LEAST_SHARE, SAME_TIME
 
-_SLOWEST = 2.0**40
+#: of the logarithm of a scale: one that is so far from 1 is none
+_SLOWEST = 40.0
 #: about what constants of laws from rest to rest are, from which a first scale is taken
 _USUAL = {1: 1.6, 2: 5.0, 3: 40.0, 4: 600.0}
 
@@ -162,24 +164,12 @@ def least_scale(limit: SpanLimit, law: MotionLaw) -> float:
     """The least scale from which on a law satisfies a limit; infinite if no scale does, 0 if all do."""
     if limit.nu:
         return float(max(limit.at(1.0).share(law), 0.0) ** (1.0 / limit.nu))
-    return falling_root(lambda scale: log(max(limit.at(scale).share(law), LEAST_SHARE)), 1.0, 2.0, SAME_TIME)
 
+    def excess(logarithm: float) -> float:
+        return log(max(limit.at(exp(logarithm)).share(law), LEAST_SHARE))
 
-def falling_root(excess: Callable[[float], float], begin: float, wider: float, met: float) -> float:
-    """The least time from which on an excess is not above 0, sought up and down from one; infinite or 0 without one."""
-    from scipy.optimize import brentq
-
-    high = begin
-    while excess(high) > 0.0:
-        high *= wider
-        if high > _SLOWEST * begin:
-            return inf
-    low = high / wider
-    while excess(low) <= 0.0:
-        low, high = low / wider, low
-        if low < begin / _SLOWEST:
-            return 0.0
-    return exp(float(brentq(lambda place: excess(exp(place)), log(low), log(high), xtol=met, rtol=met)))
+    logarithm = falling_root(excess, 0.0, log(2.0), SAME_TIME, _SLOWEST)
+    return exp(logarithm) if logarithm > -0.5 * _SLOWEST else 0.0
 
 
 def slower(span: LawSpan, scale: float) -> LawSpan:

@@ -25,6 +25,7 @@ from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
+from optlaws.numerics.roots import falling_root
 from optlaws.synthesis.limits.motions.elements import Elements
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_torque import AnyTorque
@@ -34,7 +35,7 @@ _BOUND_KEPT = 1e-7  # of a bound: a motion that is beyond it by so little keeps 
 _AT_CAP = 1e-13  # of a cap: a motion that is nearer to it is at it
 _SHORTEST = 1e-12  # of the move: nodes that are nearer are one
 
-_CELLS, _STEPS, _WIDEST = 320, 40, 60.0
+_CELLS = 320
 _PLACES, _PARTS = 4, 32
 _WIDER = (1.0001, 1.001, 1.01)  # of a cap's squared velocity: motions below it take a little less than the time
 _X, _SHARES = gauss(_PLACES)
@@ -615,31 +616,9 @@ def _least_peak(cells: MotionCells, scale: float) -> tuple[float, bool]:
 
 
 def _root(excess: Callable[[float], float]) -> tuple[float, ...]:
-    """The logarithm at which a falling excess, perhaps infinite, is not above 0; at most one."""
-    high, step = 0.0, 0.5
-    while excess(high) > 0.0:
-        high, step = high + step, 2.0 * step
-        if high > _WIDEST:
-            return ()
-    low, step = high - 0.5, 0.5
-    while excess(low) <= 0.0:
-        high, low, step = low, low - step, 2.0 * step
-        if low < -_WIDEST:
-            return (high,)
-    above, below = excess(low), excess(high)
-    for _ in range(_STEPS):
-        if high - low <= 0.1 * INTEGRATION or below == 0.0:
-            break
-        middle = 0.5 * (low + high)
-        if isfinite(above):  # by the secant, and a little beyond it
-            middle = high - below * (high - low) / (below - above)
-            middle = min(max(middle, low + 1e-3 * (high - low)), high - 1e-3 * (high - low))
-        value = excess(middle)
-        if value > 0.0:
-            low, above, below = middle, value, below * 0.5
-        else:
-            high, below, above = middle, value, above * 0.5
-    return (high,)
+    """The logarithm at which a falling excess is not above 0; at most one."""
+    root = falling_root(excess, 0.0, 0.5, 0.1 * INTEGRATION)
+    return (root,) if root < inf else ()
 
 
 def _holding(plane: PhasePlane) -> list[float]:
