@@ -14,7 +14,9 @@ from optlaws.cycles.optimisation.objectives import SUMS, kind_of
 from optlaws.cycles.placed import Place, limit_rows
 from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, LimitTaken
 from optlaws.cycles.specification.load import is_process, read_load
+from optlaws.cycles.usual_law import USUAL, usual_cycle
 from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
+from optlaws.formulas.tree import Number
 from optlaws.kept import kept_property
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
@@ -23,6 +25,7 @@ from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import MILLI, QUANTITIES, RPM, TURN_DEG, UNITS, Kind
 from optlaws.numbers import Array, chop
 from optlaws.shown.curve_points import refined
+from optlaws.shown.difference import Difference, Differences
 from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import CYCLE_ROUNDING, INSIDE_PIECE
@@ -43,6 +46,7 @@ _LOAD_UNITS = {
     "force": "N",
     "torque": "N m",
 }
+_BOTH_WAYS = 0.01  # of the work against a load: if more comes back, it acts on the way back too
 _EACH = 60  # samples of a piece, to which those are added that its curve needs
 
 
@@ -72,7 +76,19 @@ class CycleReport:
         headings = ["segment", "from, ms", "takes, ms", "takes, deg", f"ends at, {unit}", *sized]
         whole = map(max, zip(*(row[-len(sized) :] for row in rows), strict=True))
         last = ["whole cycle", 0.0, MILLI * plan.duration, TURN_DEG, None, *whole]
-        return (ReportTable(headings, [*rows, last]),)
+        segments = ReportTable(headings, [*rows, last])
+        return (segments,) if self.beside is None else (segments, self.beside.table)
+
+    @kept_property
+    def beside(self) -> Differences | None:
+        """What the laws take beside modified sine in the same moves.
+
+        None where no law was looked for, or modified sine is not possible.
+        """
+        plan = self.plan
+        cycle: Any = plan.specification
+        usual = usual_cycle(cycle) if plan.solutions else None
+        return None if usual is None else cycle_differences(USUAL, usual.unchecked(), plan)
 
     def motion(self, count: int) -> ReportTable:
         """Angle, time, position, velocity, acceleration and jerk at equal steps over the cycle.
@@ -221,6 +237,7 @@ class CycleReport:
             "search_space": plan.search_space,
             "remarks": list(plan.remarks),
             "modified_sine_jerk": plan.specification.modified_sine_jerk,
+            **({} if self.beside is None else self.beside.data),
             "segments": [
                 {"name": peak.name, "start": peak.start, "duration": peak.duration}
                 | {name: peak.peak(nu) for nu, name in enumerate(QUANTITIES) if nu}
@@ -264,6 +281,30 @@ def _infimum(drive: Mechanism | Drive, name: Literal["peak torque", "rms torque"
     except OptlawsError:
         return None
     return least if least > 0.0 else None
+
+
+def cycle_differences(name: str, usual: Solved, chosen: Solved) -> Differences:
+    """What two motions of one cycle take: peaks, and where there are such the drive's and the load's; the usual first.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Return, Rise
+    >>> best, sine = (Cycle([Rise("1 m", "1 s", law=law), Return(law=law)], period="2 s") for law in ("optimal", "MS"))
+    >>> [(each.name, each.text) for each in cycle_differences("modified sine", sine.solve(), best.solve()).values]
+    [('velocity', '+4.7 %'), ('acceleration', '-21.5 %'), ('jerk', '+314.6 %'), ('rms acceleration', '-1.6 %')]
+    """
+    cycle, force = chosen.specification, FORCES[chosen.axis]
+    names = ["velocity", "acceleration", "jerk", "rms acceleration"]
+    names += [] if cycle.drive is None else [force, f"rms {force}", "power", "energy"]
+    if cycle.in_si.load is not None:
+        names += [f"{LOAD}{output}" for output in chosen.load_motion.outputs]
+    values = (
+        [None if name == "jerk" and any(joint["acceleration"] for joint in motion.joints) else motion.value(name)
+         for motion in (usual, chosen)]
+        for name in dict.fromkeys([*names, chosen.minimise])
+    )  # fmt: skip
+    known = zip(dict.fromkeys([*names, chosen.minimise]), values, strict=True)
+    return Differences(name, [Difference(each, objective_unit(chosen, each), *both) for each, both in known])
 
 
 def motion_table(
@@ -323,24 +364,21 @@ def peak_rows(plan: Solved) -> list[Row]:
 
 
 def jerk_rows(plan: Plan) -> list[Row]:
-    """The jerk of a cycle of least acceleration over modified sine's, and the least acceleration with no more jerk.
+    """Of a cycle of least acceleration the least with no more jerk than modified sine.
 
     Nothing where the comparison says nothing: see `Cycle.modified_sine_jerk`.
     """
     usual = plan.specification.modified_sine_jerk
     if usual is None or plan.peak(_JERK) <= usual:
         return []
-    unit = unit_of(plan.axis, _JERK)
-    note = f"modified sine has {usual:.6g} {unit} in these motions"
-    rows = [Row("peak jerk over that of modified sine", plan.peak(_JERK) / usual, note=note)]
     name = "least acceleration with no more jerk than modified sine"
     gentle = plan.specification.with_modified_sine_jerk()
     try:
         least = gentle.objective
     except (InfeasibleProblem, SolverFailure):
-        return [*rows, Row(name, "none was found within the other limits")]
+        return [Row(name, "none was found within the other limits")]
     offer = f'limits={{"jerk": "{gentle.limits["jerk"]}"}}'
-    return [*rows, Row(name, least, unit_of(plan.axis, _ACCELERATION), note=offer)]
+    return [Row(name, least, unit_of(plan.axis, _ACCELERATION), note=offer)]
 
 
 def drive_rows(plan: Solved) -> list[Row]:
@@ -364,8 +402,49 @@ def drive_rows(plan: Solved) -> list[Row]:
                 Row("energy of a cycle, motoring", effort.motoring_energy, "J"),
                 Row("energy of a cycle, braking", effort.braking_energy, "J"),
             ]
+    rows += load_work_rows(plan)
     loaded = load_peaks(plan).items()
     return rows + [Row(f"peak of the load's {name}", peak, load_unit(plan, name)) for name, peak in loaded]
+
+
+def load_work_rows(plan: Solved) -> list[Row]:
+    """The work against the load of the mechanism in a cycle, with a remark where the load drives or works both ways.
+
+    Weights and springs, whose force is a straight line over the position, work both ways without a remark. Nothing
+    where there is no load.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Loads, Return, Rise, slider_crank
+    >>> press = slider_crank(
+    ...     "0.1 m", "0.4 m", bodies={"slider": "5 kg"}, loads=Loads({"0.3 m": "0 N", "0.5 m": "-90 N"})
+    ... )
+    >>> strokes = Cycle([Rise("180 deg", "0.3 s", law="345"), Return(law="345")], period="0.6 s", drive=press)
+    >>> work, remark = load_work_rows(strokes.solve())
+    >>> round(work.value, 9), remark.value
+    (0.0, 'the load gives back 9 J of the 9 J that it takes in a cycle: ...')
+    """
+    drive = plan.specification.in_si.drive
+    if drive is None or drive.mechanism.load_formula == Number(0.0):
+        return []
+    against, back = (sum(works) for works in zip(*(each.load_works for each in plan.along), strict=True))
+    work = chop(against - back, against + back, CYCLE_ROUNDING)
+    row = Row("work against the load in a cycle", work, "J")
+    if drive.mechanism.linear is not None or not against + back:
+        return [row]
+    if work < 0.0:
+        text = (
+            f"the load drives the machine: it gives {-work:.4g} J in a cycle; a process that takes this work has a "
+            "force of the other sign"
+        )
+    elif back > _BOTH_WAYS * against:
+        text = (
+            f"the load gives back {back:.4g} J of the {against:.4g} J that it takes in a cycle: it acts on the way "
+            "back too; a process force that acts on one way alone is given over the time or the master"
+        )
+    else:
+        return [row]
+    return [row, Row("remark", text)]
 
 
 def load_peaks(plan: Solved) -> dict[str, float]:

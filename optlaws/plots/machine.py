@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
 
@@ -161,12 +161,32 @@ def _linkage(mechanism: Mechanism, axes: Axes) -> list[Artist]:
 
 
 _SAMPLES = 801
+_FAR_SPEED = 2.5  # times the greatest speed of a cycle: what is farther is not drawn
 
 
 def draw_motor_of_cycle(plan: Solved, axes: Axes | None = None, **style: Any) -> list[Artist]:
-    """Draw torque over speed at the motor during a cycle, within the motor's curves."""
-    plan.geared_motor  # noqa: B018 - a drive without one has no curves
-    return draw_torque_over_speed(plan.along, axes, **{"label": "cycle", **style})
+    """Draw torque over speed at the motor during a cycle, within the motor's curves, with the RMS at the mean speed.
+
+    The legend says what the cycle uses of each limit; where the greatest speed is far, that alone stands there.
+    """
+    sheet, motor = plan.sheet, plan.geared_motor.motor
+    artists = draw_torque_over_speed(plan.along, axes, **{"label": "cycle", **style})
+    axes = cast("Axes", artists[0].axes)
+    used = {margin.name: f"{100.0 * margin.use:.3g} % used" for margin in sheet.margins}
+    of_peak = used.get("torque-speed curve", used.get("peak torque", ""))
+    known = {"peak torque": of_peak, "continuous torque": used.get("RMS torque", "")}
+    for artist in artists:
+        if share := known.get(str(artist.get_label()), ""):
+            artist.set_label(f"{artist.get_label()}, {share}")
+    rms: Any = {"color": WARM, "marker": "o", "markersize": 6.0, "linewidth": 0.0, "zorder": 5}
+    artists += axes.plot(RPM * sheet.mean_speed, sheet.rms_torque, label="RMS torque at the mean speed", **rms)
+    if np.isfinite(motor.greatest_speed):
+        most, near = RPM * motor.greatest_speed, motor.greatest_speed <= _FAR_SPEED * sheet.peak_speed
+        label = f"greatest speed {most:.5g} rpm, {used['speed']}"
+        place: Any = {"linestyle": ":", "color": GREY, "linewidth": 1.4, "label": label}
+        artists += [axes.axvline(most, **place)] if near else axes.plot([], [], **place)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2, fontsize=8.0)
+    return artists
 
 
 def draw_torque_over_speed(
@@ -177,7 +197,9 @@ def draw_torque_over_speed(
     artists: list[Artist] = []
     course = [way * values for values in over_speed(along, _SAMPLES)]
     goes_back = course[0].min() < -VALUE_ROUNDING * np.abs(course[0]).max()
-    speeds, limits = along[0].drive.motor.limits_up_to(1.5 * float(np.abs(course[0]).max()), _SAMPLES)
+    motor, fastest = along[0].drive.motor, float(np.abs(course[0]).max())
+    near = motor.greatest_speed <= _FAR_SPEED * fastest
+    speeds, limits = motor.limits_up_to(motor.greatest_speed if near else 1.5 * fastest, _SAMPLES)
     for name, values in limits.items():
         look: dict[str, Any] = {"color": GREY, "linestyle": "-" if name == "peak torque" else "--", "linewidth": 1.1}
         for side, label in ((1.0, name), (-1.0, None)):

@@ -8,8 +8,14 @@ import pytest
 
 from optlaws import (
     Chebyshev,
+    Cycle,
+    Drive,
+    Dwell,
     InputError,
+    Mechanism,
+    Motor,
     Problem,
+    Rise,
     at_most,
     catalogue,
     compare_laws,
@@ -107,3 +113,24 @@ def test_the_command_says_the_same(capsys: pytest.CaptureFixture[str], tmp_path:
     assert (tmp_path / "a.svg").is_file()
     assert (tmp_path / "a.csv").read_text("utf-8").count("\n") == 4
     assert f"{SINE.constants.C.value:.7g}" in capsys.readouterr().out
+
+
+def test_a_cycle_stands_beside_modified_sine_in_the_same_moves() -> None:
+    drive = Drive(Mechanism("2 kg m^2", coulomb="6 N m"), Motor("3e-4 kg m^2"), ratio=10)
+    best, sine = (
+        Cycle([Rise("90 deg", "0.4 s", law=law), Dwell()], period="1 s", advance="90 deg", drive=drive)
+        for law in ("optimal", "modified sine")
+    )
+    report = best.report()
+    table = report.tables[1]
+    assert table.headings == ["what", "modified sine", "this law", "difference", "unit"]
+    names = ["velocity", "acceleration", "jerk", "rms acceleration", "torque", "rms torque", "power", "energy"]
+    assert [row[0] for row in table.rows] == names
+    for name, usual, chosen, text, _ in table.rows:
+        assert (usual, chosen) == (pytest.approx(sine.value(name), rel=1e-12), best.value(name))
+        assert text == f"{100.0 * (chosen / usual - 1.0):+.1f} %"
+    known = report.data["usual_law"]
+    assert (known["name"], [each["name"] for each in known["values"]]) == ("modified sine", names)
+    # given laws were not chosen by optlaws
+    assert len(sine.report().tables) == 1
+    assert "usual_law" not in sine.report().data

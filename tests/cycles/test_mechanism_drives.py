@@ -24,6 +24,7 @@ from optlaws import (
     slider_crank,
 )
 
+RPM = 30.0 / np.pi
 PRESS = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
 TABLE = Mechanism("0.8 kg m^2")
 LOADED = Mechanism("0.8 kg m^2", load="3*sin(x)", coulomb=0.3)
@@ -244,7 +245,15 @@ def test_pictures_of_a_cycle_with_a_motor() -> None:
     cycle = Cycle([Rise("45 deg", "0.25 s", law="modified sine"), Dwell()], **EACH, drive=drive)
     labels = list(dict.fromkeys(artist.axes.get_ylabel() for artist in cycle.plot()))
     assert labels[-2:] == ["torque, N m", "power, W"]
-    curve, *_, course = cycle.plot(over="speed")
+    curve, *_, course, mean, fastest = cycle.plot(over="speed")
+    sheet, used = cycle.sheet, {margin.name: f"{100.0 * margin.use:.3g} % used" for margin in cycle.sheet.margins}
+    assert (mean.get_xdata()[0], mean.get_ydata()[0]) == pytest.approx((sheet.mean_speed * RPM, sheet.rms_torque))
+    assert curve.get_label() == f"peak torque, {used['torque-speed curve']}"
+    assert fastest.get_label() == f"greatest speed 3819.7 rpm, {used['speed']}"
+    assert not len(fastest.get_xdata())  # too far away to be drawn
+    near = replace(drive, motor=Motor("3e-4 kg m^2", greatest_speed=200.0))
+    *_, fastest = Cycle(cycle.segments, **EACH, drive=near).plot(over="speed")
+    assert list(fastest.get_xdata()) == pytest.approx(2 * [200.0 * RPM])
     assert max(course.get_ydata()) == pytest.approx(cycle.sheet.peak_torque, rel=1e-4)
     assert max(course.get_xdata()) == pytest.approx(cycle.sheet.peak_speed * 30 / np.pi, rel=1e-4)
     assert max(curve.get_ydata()) == 3.0

@@ -107,3 +107,38 @@ def test_other_units_of_a_process(unit: float) -> None:
 def test_wrong_processes_are_refused(entries: dict[str, Any], says: str) -> None:
     with pytest.raises(InputError, match=says):
         Cycle(strokes(), **{"period": "1 s", "drive": PRESS, **entries})
+
+
+def test_the_work_of_a_process_is_its_force_times_the_way_and_a_wrong_sign_is_remarked() -> None:
+    drive = Drive(PRESS, Motor("3e-4 kg m^2"), ratio=8)
+
+    def rows(load: dict[str, Any], driven: Any = drive) -> dict[str, Any]:
+        cycle = Cycle(strokes(), period="1 s", drive=driven, load=load)
+        return {row.name: row.value for row in cycle.summary()}
+
+    known = rows({"force": PUSHED, "on": "slider"})
+    times = np.linspace(0.0, 1.0, 200_001)
+    cycle = Cycle(strokes(), period="1 s", drive=drive)
+    x, v = cycle(times), cycle(times, 1)
+    power = -pushed(times) * slope(x) * v
+    work = float(np.trapezoid(power, times))
+    assert known["work against the load in a cycle"] == pytest.approx(work, rel=1e-6)
+    other = {place: force.replace("-60", "60") for place, force in PUSHED.items()}
+    turned = rows({"force": other, "on": "slider"})
+    assert turned["work against the load in a cycle"] == pytest.approx(-work, rel=1e-6)
+    wrong = turned if work > 0.0 else known
+    assert f"the load drives the machine: it gives {abs(work):.4g} J in a cycle" in wrong["remark"]
+    right = known if work > 0.0 else turned
+    assert "remark" not in right
+
+
+def test_a_force_over_the_position_works_on_the_way_back_too_and_is_remarked() -> None:
+    over = {"0.3 m": "0 N", "0.4 m": "-300 N", "0.5 m": "-300 N"}
+    cycle = Cycle(strokes(), period="1 s", drive=PRESS, load={"force": over, "over": "driven", "on": "slider"})
+    rows = {row.name: row.value for row in cycle.summary()}
+    # along 0.1 m of 300 N and 0.1 m on which it grows to that
+    assert rows["work against the load in a cycle"] == 0.0
+    assert "gives back 45 J of the 45 J that it takes" in rows["remark"]
+    weight = Cycle(strokes(), period="1 s", drive=Mechanism("0.8 kg m^2", load="5*x + 2"))
+    assert {row.name: row.value for row in weight.summary()}["work against the load in a cycle"] == 0.0
+    assert "remark" not in {row.name for row in weight.summary()}

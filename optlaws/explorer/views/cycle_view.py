@@ -73,6 +73,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
         "panels": [panel_data(replace(report.panel(nu), per=TURN_DEG / shown.duration)) for nu in report.orders],
         "segments": list(_segments(report)),
         "table": table_data(report.tables[0]),
+        "beside": None if report.beside is None else table_data(report.beside.table),
         "trust": trust(shown),
         "facts": fact_sentences([*drive_rows(shown), *joint_rows(shown)]),
     }

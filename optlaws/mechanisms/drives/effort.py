@@ -164,6 +164,20 @@ class PieceEffort:
         powers = self.power(times)
         return float(weights @ np.maximum(powers, 0.0)), float(weights @ np.maximum(-powers, 0.0))
 
+    @kept_property
+    def load_works(self) -> tuple[float, float]:
+        """The work that is done against the load of the mechanism, and that the load gives back, both at least 0, J."""
+        piece, load = self.piece, self.drive.mechanism.load_formula
+
+        def power(times: Array) -> Array:
+            values = evaluate(load, {"x": piece.values(times, 0), "t": times}, NUMPY)
+            return np.asarray(values * piece.values(times, 1), dtype=np.float64)
+
+        edges = self.parts.edges
+        parts = SmoothParts.between(edges[0], edges[-1], breaks=edges[1:-1], signs=[power] if piece.stroke else [])
+        against = parts.integral(lambda times: np.maximum(power(times), 0.0))
+        return against, parts.integral(lambda times: np.maximum(-power(times), 0.0))
+
     @property
     def energy(self) -> float:
         """The energy that is given less the share of it that is fed back, J."""

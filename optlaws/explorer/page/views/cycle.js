@@ -70,7 +70,7 @@ export class View {
     showTrust(element("cycle-trust"), answer, this.#ways, (way) => this.#back(way));
     if (answer.facts) element("cycle-trust").append(html("p", { class: "facts", text: listed(answer.facts) }));
     this.#motion.show(answer);
-    element("segments").replaceChildren(...(answer.refused ? [] : [segments(answer)]), this.#words);
+    element("segments").replaceChildren(...(answer.refused ? [] : [segments(answer), ...beside(answer)]), this.#words);
   }
 
   /** Let a segment end at an angle, and the next one begin there. */
@@ -91,6 +91,11 @@ export class View {
       axis.limits = { ...axis.limits, [entry]: value };
     });
   }
+}
+
+/** What the laws take beside modified sine in the same moves, where they are optimised. */
+function beside({ beside: known }) {
+  return known ? [table("Beside modified sine", known.headings, known.rows)] : [];
 }
 
 function segments({ segments: known, table: { headings, rows } }) {
