@@ -268,14 +268,16 @@ def _export_row(name: str, export: Export) -> list[Cell]:
 
 
 def sweep_table(sweep: SweepEntries, rows: Sequence[SweptCycle]) -> ReportTable:
-    """Headings and cells of a sweep: the objective with its bound, and what drive and motor need."""
-    cycles = [cycle for _, cycle, _ in rows if cycle is not None]
+    """Headings and cells of a sweep: the objective with its bound, what drive and motor need, or why there is none."""
+    cycles = [cycle for _, cycle, *_ in rows if cycle is not None]
     columns = _columns(cycles[0]) if cycles else {}
+    reasons = ["reason"] if any(reason for *_, reason in rows) else []
     cells: list[list[Cell]] = [
-        [value, status.value, *(None if cycle is None else cell(cycle) for cell in columns.values())]
-        for value, cycle, status in rows
+        [value, status.value, *(None if cycle is None else cell(cycle) for cell in columns.values()), reason]
+        for value, cycle, status, reason in rows
     ]
-    return ReportTable([sweep.entry, "status", *columns], cells)
+    shown = len(columns) + 2 + len(reasons)
+    return ReportTable([sweep.entry, "status", *columns, *reasons], [row[:shown] for row in cells])
 
 
 def _columns(cycle: Cycle) -> dict[str, Callable[[Cycle], Cell]]:

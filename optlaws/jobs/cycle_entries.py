@@ -75,8 +75,8 @@ class SweepEntries(Declared, title="a sweep"):
     )
 
 
-#: a value of an entry, and the cycle of the axis with it; None without a motion, with the reason as its status
-SweptCycle: TypeAlias = tuple[str | float, Cycle | None, Status]
+#: a value of an entry, the cycle of the axis with it, None without a motion, its status, and why there is no motion
+SweptCycle: TypeAlias = tuple[str | float, Cycle | None, Status, str]
 
 
 def _constants(value: Any) -> Any:
@@ -216,14 +216,15 @@ def sweeps_of(spec: CycleProblemFile, file: Path) -> list[list[SweptCycle]]:
 
 def _swept(spec: CycleProblemFile, axis: dict[str, Any], entry: str, value: str | float, folder: Path) -> SweptCycle:
     """The cycle of an axis with another value of an entry, with its laws."""
+    where = f"sweep of {entry}, {value}"
     try:
-        with located(f"sweep of {entry}, {value}"):
+        with located(where):
             changed = AxisEntries.from_dict(with_entry(axis, entry, value))
             cycle = cycle_of(changed, spec.speed, spec.period, folder)
             _ = cycle.peaks  # laws are looked for now
-            return value, cycle, cycle.status
+            return value, cycle, cycle.status, ""
     except (InfeasibleProblem, SolverFailure) as error:
-        return value, None, Status.of(error)
+        return value, None, Status.of(error), str(error).removeprefix(f"{where}: ")
 
 
 def with_entry(axis: dict[str, Any], entry: str, value: str | float) -> dict[str, Any]:

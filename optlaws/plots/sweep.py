@@ -27,6 +27,8 @@ def sweep_figure(headings: Sequence[str], rows: Sequence[Sequence[Cell]], title:
     """The numeric columns of a table over its first column, a panel for each unit; missing values are gaps."""
     panels: dict[str, list[int]] = {}
     for i, heading in enumerate(headings[2:], 2):
+        if not any(isinstance(row[i], int | float) for row in rows):
+            continue
         unit = heading.rpartition(", ")[2] if ", " in heading else ""
         # what has no unit of its own, a bound, is in that of the column before
         panels.setdefault(unit or next(reversed(panels), ""), []).append(i)
@@ -39,8 +41,6 @@ def sweep_figure(headings: Sequence[str], rows: Sequence[Sequence[Cell]], title:
                 curve = np.array(
                     [row[i] if isinstance(row[i], int | float) else np.nan for row in rows], dtype=np.float64
                 )
-                if np.isnan(curve).all():
-                    continue
                 panel.plot(places, curve, marker="o", markersize=4.0, color=colour, label=headings[i].partition(",")[0])
             panel.set_ylabel(unit)
             panel.set_ylim(bottom=min(0.0, panel.get_ylim()[0]))

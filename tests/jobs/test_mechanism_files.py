@@ -434,6 +434,10 @@ def test_a_sweep_of_a_limit_has_rows_without_a_law(tmp_path: Path) -> None:
     assert [row[:2] for row in rows[1:]] == [["3 rad/s", "infeasible"], ["4.8 rad/s", "optimal"]]
     assert rows[0][2] == "least acceleration, rad/s²"
     assert rows[1][2] == ""
+    assert rows[0][-1] == "reason"
+    assert rows[1][-1].startswith("segment 1 (Rise): 45 deg in 0.25 s are 180 deg/s on average")
+    assert "its velocity is to be at most 171.887339 deg/s: give it more time" in rows[1][-1]
+    assert rows[2][-1] == ""
     assert float(rows[2][2]) > 4.0 * (3.141592653589793 / 4.0) / 0.25**2  # C is at least 4
     assert "<!-- least acceleration -->" in (tmp_path / "out" / "sweep_1.svg").read_text("utf-8")
 
