@@ -381,13 +381,13 @@ def bound_by_energy(span: LawSpan, objective: CycleObjective, solution: Solution
 def _bound_of_drive(span: LawSpan, objective: CycleObjective) -> float:
     """The greatest proven bound of a span's torque or copper heat, in SI units, of any law that never turns back.
 
-    Of the motor no limit counts but those that the cycle keeps. 0 where none is known: of a span that does not go from
-    rest to rest, of a load over the time, and of other objectives.
+    Of the motor no limit counts but those that the cycle keeps. Minus infinity where none is known: of a span that does
+    not go from rest to rest, of a load over the time, and of other objectives, as an energy may be below 0.
     """
     drive, kind = objective.drive, objective.kind
     resting = span.first.velocity == 0.0 == span.last.velocity and not span.may_turn
     if drive is None or kind not in {Kind.FORCE, Kind.HEAT} or not resting or drive.mechanism.varies:
-        return 0.0
+        return -inf
     known = {Kind.VELOCITY: "velocity", Kind.ACCELERATION: "acceleration"}
     sides = span.stretches[0].sides(objective.limits)
     limits = tuple((known[key.kind], most) for key, most in sides.items() if key.kind in known and not key.sign)
