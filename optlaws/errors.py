@@ -177,15 +177,20 @@ class NotInstalled(InputError, ImportError):  # noqa: N818 - as SolverFailure
 
     Examples
     --------
-    >>> raise NotInstalled("to_pandas needs pandas: pip install optlaws[studies]")
+    >>> raise not_installed("to_pandas needs pandas", "'optlaws[studies]'")
     Traceback (most recent call last):
-    optlaws.errors.NotInstalled: to_pandas needs pandas: pip install optlaws[studies]
+    optlaws.errors.NotInstalled: to_pandas needs pandas: pip install 'optlaws[studies]' (or uv pip install ...)
     """
+
+
+def not_installed(what: str, requirement: str) -> NotInstalled:
+    """The error of a missing library, with the line that installs it by pip, or by uv without pip."""
+    return NotInstalled(f"{what}: pip install {requirement} (or uv pip install ...)")
 
 
 def needed(module: str, what: str, extra: str = "studies") -> Any:
     """An optional library, imported if it is installed; a module within it comes with it."""
     library = module.partition(".")[0]
     if find_spec(library) is None:
-        raise NotInstalled(f"{what} needs {library}: pip install 'optlaws[{extra}]'")
+        raise not_installed(f"{what} needs {library}", f"'optlaws[{extra}]'")
     return import_module(module)

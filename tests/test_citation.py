@@ -1,6 +1,7 @@
 """The citation file says of the package what its metadata says."""
 
 import tomllib
+from datetime import date
 from pathlib import Path
 
 import yaml  # type: ignore[import-untyped]
@@ -15,6 +16,7 @@ def test_the_citation_file_agrees_with_the_metadata() -> None:
     assert {"cff-version", "message", "title", "authors"} <= citation.keys()
     assert citation["cff-version"] == "1.2.0"
     assert citation["type"] == "software"
+    assert isinstance(citation["date-released"], date)
     assert citation["authors"] == project["authors"]
     assert citation["abstract"] == project["description"] + "."
     for key, name in (("title", "name"), ("version", "version"), ("license", "license"), ("keywords", "keywords")):

@@ -10,7 +10,7 @@ from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from optlaws.errors import NotInstalled
+from optlaws.errors import not_installed
 from optlaws.files import writing
 from optlaws.files.writing import MARK
 
@@ -70,7 +70,7 @@ def plot_style() -> Iterator[None]:
     try:
         import matplotlib as mpl
     except ImportError:
-        raise NotInstalled("drawing needs matplotlib: pip install matplotlib") from None
+        raise not_installed("drawing needs matplotlib", "matplotlib") from None
     with mpl.rc_context(STYLE):
         yield
 

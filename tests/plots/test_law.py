@@ -24,7 +24,7 @@ def test_without_matplotlib_drawing_says_what_is_missing_and_all_else_works() ->
         "except optlaws.InputError as error:\n    print(error)\n"
     )
     done = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True)
-    assert done.stdout == "drawing needs matplotlib: pip install matplotlib\n"
+    assert done.stdout == "drawing needs matplotlib: pip install matplotlib (or uv pip install ...)\n"
 
 
 def test_a_law_is_drawn_as_it_is_with_its_peaks_marked() -> None:

@@ -18,7 +18,7 @@ from optlaws.cams.curves.plane_curve import Outline
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Choice, Measured, Text, Whole
-from optlaws.errors import InputError
+from optlaws.errors import InputError, not_installed
 from optlaws.files import writing
 from optlaws.files.reading import check_names
 from optlaws.files.writing import MARK
@@ -299,7 +299,7 @@ def _ezdxf() -> Any:
     try:
         import ezdxf
     except ImportError:
-        raise InputError("DXF files are written by ezdxf: pip install 'optlaws[cad]'") from None
+        raise not_installed("a DXF file needs ezdxf", "'optlaws[cad]'") from None
     return ezdxf
 
 

@@ -65,12 +65,12 @@ def _cluster(address: str | None) -> Iterator[tuple[Executor | None, int | None]
     if address is None:
         yield None, None
         return
-    from optlaws.errors import NotInstalled
+    from optlaws.errors import not_installed
 
     try:
         from distributed import Client
     except ImportError:
-        raise NotInstalled("--dask needs distributed: pip install 'optlaws[cluster]'") from None
+        raise not_installed("--dask needs distributed", "'optlaws[cluster]'") from None
     try:
         client = Client(address, timeout=10)
     except (OSError, ValueError) as error:
