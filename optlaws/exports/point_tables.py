@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
-from math import inf, isfinite
+from math import floor, inf, isfinite, log10
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from optlaws.numerics import bernstein
 from optlaws.numerics.splines import Ends, hermite_powers, linear_powers, spline_powers
 from optlaws.tolerances import CLOSURE
 
+_DIGITS = 15  # that every double has
 _TABLE_ROUNDING = 2.0**-46  # of a column of a table: less is printed as 0
 
 #: by interpolations: how many derivatives points have, with the position
@@ -92,8 +93,14 @@ class NumberFormat:
         return self.numbers(np.rint(y / step) * step if step else y)
 
     def numbers(self, values: Array) -> Array:
-        """Numbers as the target stores them."""
-        rounded = values if self.digits is None else np.round(values, self.digits)
+        """The numbers of a column as the target stores them: 15 digits of its greatest, unless their digits are given.
+
+        >>> NumberFormat().numbers(np.array([4.0e-17, 29.999999999999996, 40.0])).tolist()
+        [0.0, 30.0, 40.0]
+        """
+        greatest = float(np.abs(values).max(initial=0.0))
+        known = _DIGITS - 1 - floor(log10(greatest)) if 0.0 < greatest < inf else 0
+        rounded = np.round(values, known if self.digits is None else self.digits)
         return (rounded.astype(np.float32).astype(np.float64) if self.single else rounded) + 0.0
 
 
@@ -154,8 +161,8 @@ def hermite_table(
             "the law's acceleration or jerk is infinite at a point: export positions alone, or another law"
         )
     x = numbers.master(exact)
-    derivatives = numbers.numbers(values[1:]) if with_derivatives else values[1:]
-    values = np.vstack([numbers.positions(values[0], motion)[None], derivatives])
+    stored = [numbers.numbers(column) if with_derivatives else column for column in values[1:]]
+    values = np.vstack([numbers.positions(values[0], motion), *stored])
     return PointTable(x, values, hermite_powers(x, values), numbers.resolution(motion))
 
 
