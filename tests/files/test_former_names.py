@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 
 import optlaws
-from optlaws.jobs.solutions import SolutionsProblemFile
-from optlaws.studies.tables import row_of
 from optlaws.verification import verify_all
 from tests.documents import ROOT
+from tests.internals.jobs import solutions
+from tests.internals.studies import row_of
 
 SLIDE = optlaws.Cycle(
     [optlaws.Rise("35 mm", "180 deg"), optlaws.Return()], speed="60 rpm", limits={"acceleration": "20 m/s^2"}
@@ -74,7 +74,7 @@ def test_the_former_names_of_attributes_say_the_present_one() -> None:
 
 def test_the_former_columns_of_tables_are_read() -> None:
     entries = {"job": "solutions", "title": "t", "problem": {}, "sweep": [{"B": [1.6]}]}
-    stated = SolutionsProblemFile.from_dict({**entries, "columns": ["C", "limit", "above limit, %"]})
+    stated = solutions.SolutionsProblemFile.from_dict({**entries, "columns": ["C", "limit", "above limit, %"]})
     assert stated.columns == ("C", "best possible", "above best possible, %")
 
 

@@ -10,4 +10,4 @@ from optlaws.studies.specification import entries, filled, read_study
 from optlaws.studies.store import Chunks, DamagedTable, StoreFailure, StudyDirectory, digest
 from optlaws.studies.store import _with_digest as with_digest
 from optlaws.studies.study import Study
-from optlaws.studies.tables import StudyPoint
+from optlaws.studies.tables import StudyPoint, row_of
