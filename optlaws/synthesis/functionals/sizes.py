@@ -59,7 +59,9 @@ def _bound(constant: Functional, space: LawSpace) -> tuple[float, ...]:
     rule = space.quadrature(_ORDER)
     law, steps = _directions(space)
     values, still = rule.values[:, :-1] @ steps, rule.values @ np.append(law, 1.0)
-    families = constant.families(space, np.append(np.zeros(space.terms), 1.0), 0.0)
+    rows_of_constant = constant.families(space, np.append(np.zeros(space.terms), 1.0), 0.0)
+    unit = 1.0 if constant.normalised else constant.scale
+    families = [family.scaled_down(unit) for family in rows_of_constant]
     proving = [family for family in families if isinstance(family, BatchFamily) and family.proving]
     tangents = Tangents([family for family in proving if not isinstance(family, LinearFamily)], law, steps)
     straight = [family for family in proving if isinstance(family, LinearFamily)]
@@ -71,7 +73,8 @@ def _bound(constant: Functional, space: LawSpace) -> tuple[float, ...]:
     factors, heights = sums
     offsets = np.append(still, -still) - heights
     factor, offset = (float(rule.weights @ part.reshape(2, -1).max(axis=0)) for part in (factors, offsets))
-    return ((1.0 + _MARGIN) * factor, offset + _MARGIN * abs(offset)) if factor + abs(offset) < _LARGEST else ()
+    known = factor * constant.scale + abs(offset) < _LARGEST
+    return ((1.0 + _MARGIN) * factor, offset + _MARGIN * abs(offset)) if known else ()
 
 
 def _rows(family: LinearFamily, law: Array, steps: Array, *, twofold: bool) -> Array:
@@ -132,6 +135,8 @@ class Tangents:
         """The same of weights of at least 0; where these miss a target, rows join that rise where they miss it."""
         sums, least = [], _SUM_AGREES * float(np.linalg.norm(targets, axis=1).max(initial=0.0))
         for target in targets:
+            # the tangent in its own direction, whose weight alone is often enough
+            rows = np.vstack([self.at(target / max(float(np.linalg.norm(target)), TINY)), rows])
             for _ in range(_MOST_TANGENTS):
                 weights = _nonnegative(rows[:, :-1], target)
                 missed = target - weights @ rows[:, :-1]
