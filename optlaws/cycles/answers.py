@@ -26,7 +26,7 @@ from optlaws.motion.quantities import QUANTITIES, TURN, Kind, quantity
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.status import Status
-from optlaws.tolerances import CYCLE_OPTIMALITY, JUMP
+from optlaws.tolerances import CYCLE_OPTIMALITY, INSIDE_PIECE, JUMP
 
 if TYPE_CHECKING:
     from optlaws.cycles.transitions import TransitionCam, TransitionKind
@@ -300,14 +300,14 @@ class Answers(Exportable):
         return np.unique(np.concatenate([each.parts.edges for each in self.along]))
 
     def _of_drive(self, time: Any, name: str) -> Any:
-        places = np.mod(real_times(time), self.solve().duration)
+        _, places = _in_the_cycle(real_times(time), self.solve().duration)
         return number_or_array(by_pieces(self.pieces, [getattr(each, name) for each in self.along], places))
 
     def __call__(self, time: Any, nu: int = 0) -> Any:
         """Position (nu 0), velocity, acceleration, jerk at a time in seconds, in SI units; the cycle repeats."""
         plan, times, nu = self.solve(), real_times(time), derivative(nu)
-        turns = np.floor(times / plan.duration)
-        values = values_of_pieces(plan.pieces, np.clip(times - turns * plan.duration, 0.0, plan.duration), nu)
+        turns, places = _in_the_cycle(times, plan.duration)
+        values = values_of_pieces(plan.pieces, places, nu)
         return number_or_array(values if nu else values + turns * plan.programme.advance)
 
     def at_angle(self, degrees: Any, nu: int = 0) -> Any:
@@ -462,3 +462,11 @@ class Solved(Answers):
             (span, span.by(solution.law), solution)
             for span, solution in zip(self.specification.layout.spans, self.solutions, strict=True)
         )
+
+
+def _in_the_cycle(times: Array, period: float) -> tuple[Array, Array]:
+    """Turns that are done, and the time since; the end of a turn, but for rounding, is the beginning of the next."""
+    shares = times / period
+    whole = np.rint(shares)
+    turns = np.where(np.abs(shares - whole) <= INSIDE_PIECE * np.maximum(np.abs(whole), 1.0), whole, np.floor(shares))
+    return turns, np.clip(times - turns * period, 0.0, period)
