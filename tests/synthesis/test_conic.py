@@ -9,7 +9,7 @@ from tests.synthesis import reference
 from tests.synthesis.conic import least
 from tests.synthesis.judge import broken, lower_bounded
 from tests.synthesis.numpy_laws import Undecided
-from tests.synthesis.random_options import every_option
+from tests.synthesis.random_options import every_option, every_unit
 
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 
@@ -76,3 +76,9 @@ def test_both_references_agree(minimise: str) -> None:
     for symmetric in (True, False):
         problem = Problem(B=1.7, order=3, basis=Chebyshev(8), minimise=minimise, symmetric=symmetric)
         assert least(problem) == pytest.approx(reference.least(problem), rel=1e-5)
+
+
+@pytest.mark.parametrize("number", [98, 101, 102])
+def test_quadratic_steps_end_what_clarabel_leaves(number: int) -> None:
+    """Constants in units that differ by 1e9 leave the cones next to no interior."""
+    assert synthesize(every_unit(21, number + 1)[number].problem).status == "optimal"

@@ -9,7 +9,8 @@ import numpy as np
 from optlaws.numbers import Array
 from optlaws.synthesis.families.family import Points, Program
 
-_ACCEPTABLE = "Solved_To_Acceptable_Level"
+QUADRATIC = "quadratic programs"  #: that follow each other, whether or not the last one changed nothing
+_NEARLY = (QUADRATIC, "Solved_To_Acceptable_Level")
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,4 +36,4 @@ class Answer:
     @property
     def usable(self) -> bool:
         """Whether x is a start for the exact active set: an answer that is nearly one is, it is polished anyway."""
-        return self.success or self.status == _ACCEPTABLE
+        return self.success or self.status in _NEARLY

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from optlaws.numbers import Array
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
-from optlaws.synthesis.method.discretised.answer import Answer
+from optlaws.synthesis.method.discretised.answer import QUADRATIC, Answer
 from optlaws.synthesis.method.discretised.conic import conic_optimum, usable
 from optlaws.tolerances import EMPTY_ROW, STEP_SETTLED
 
@@ -146,7 +146,7 @@ class _Descent:
         if last is None:
             return Answer.missing(program, self.points, "no quadratic step", taken)
         weights = np.split(np.maximum(multipliers, 0.0), self.ends[1:-1])
-        return Answer(x, [*weights, last.equations], success=settled, status="quadratic programs", iterations=taken)
+        return Answer(x, [*weights, last.equations], success=settled, status=QUADRATIC, iterations=taken)
 
     def _tried(
         self, x: Array, rows: _Rows, step: _Step, bend: Array, damping: float

@@ -205,9 +205,14 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
 
 
 def answer_on_points(program: Program, points: list[Points], start: Array | None) -> Answer:
-    """Clarabel's solution of a linear or conic program; of any other the end of quadratic steps from a start."""
+    """Clarabel's solution of a linear or conic program; of any other, or where it has none, the end of quadratic steps.
+
+    These need no interior, which cones of constants in very different units may leave next to none.
+    """
     if all(map(of_cones, program.families)):
-        return optimum_on_points(program, points)
+        answer = optimum_on_points(program, points)
+        if answer.success or not program.curved:
+            return answer
     return stepwise_on_points(program, points, np.zeros(program.size) if start is None else start)
 
 
