@@ -212,7 +212,7 @@ def _draw_mechanism(cam: DiscCam, axes: Axes, style: dict[str, Any]) -> list[Art
     axes.plot([], [], color=WARM, linewidth=1.1, label="follower at the start")
     axes.plot([0.0], [0.0], "+", color=GREY, markersize=9.0, zorder=5)
     axes.set(xlabel="x of the cam, mm", ylabel="y of the cam, mm")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=3)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=3, borderpad=1.0)
     return artists
 
 
