@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from functools import cache, lru_cache
 from typing import Any
 
@@ -68,7 +68,7 @@ def front(problem: Problem, x: str, y: str) -> dict[str, Any]:
         return {"words": f"no {x} has a law of this problem"}
     alone = not problem.convex and problem.minimise != "D"
     values: Any = np.linspace(*span, _POINTS_ALONE if alone else _POINTS)
-    entries = {name: getattr(problem, name) for name in problem.__dataclass_fields__}
+    entries = {each.name: getattr(problem, each.name) for each in fields(problem)}
     laws = synthesize_array(ProblemArray(**entries | {x: values if x == "B" else map_arrays(at_most, values)}))
     # a law whose bound of x does not bind stands where its own x is
     line = Front((x, y), tuple(law for law in map(laws.result, range(laws.size)) if isinstance(law, Solution)))
