@@ -3,6 +3,7 @@
 import json
 import shutil
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -17,11 +18,12 @@ from tests.internals.studies import row_of
 SLIDE = optlaws.Cycle(
     [optlaws.Rise("35 mm", "180 deg"), optlaws.Return()], speed="60 rpm", limits={"acceleration": "20 m/s^2"}
 )
-LEAST = {"stroke": "35 mm", "limits": {"acceleration": "20 m/s^2"}}
-RESULTS = {
+RESULTS: dict[str, Callable[[], Any]] = {
     "solution": lambda: optlaws.synthesize(optlaws.Problem(order=3)),
     "array": lambda: optlaws.synthesize_array(optlaws.ProblemArray(B=[1.5, 1.6], order=3)),
-    "fastest move": lambda: optlaws.fastest(optlaws.Problem(order=3), **LEAST),
+    "fastest move": lambda: optlaws.fastest(
+        optlaws.Problem(order=3), stroke="35 mm", limits={"acceleration": "20 m/s^2"}
+    ),
     "fastest cycle": SLIDE.fastest,
 }
 
