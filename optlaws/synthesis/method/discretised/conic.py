@@ -20,6 +20,7 @@ from optlaws.tolerances import EMPTY_ROW
 _CONIC_SOLVER = 1e-12  # what a solver of cones is told to leave of gap and feasibility
 
 _USABLE = ("Solved", "AlmostSolved")
+INFEASIBLE = "PrimalInfeasible"
 _MAGNIFIED = 2.0**12
 #: what a cone is taken to be at its tip by, magnified
 _NOTHING = 16.0

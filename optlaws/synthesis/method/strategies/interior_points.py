@@ -17,7 +17,7 @@ from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.method.discretised.answer import Answer
-from optlaws.synthesis.method.discretised.conic import conic, of_cones, optimum_on_points
+from optlaws.synthesis.method.discretised.conic import INFEASIBLE, conic, of_cones, optimum_on_points
 from optlaws.synthesis.method.discretised.grids import with_extrema
 from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
 from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
@@ -211,7 +211,7 @@ def answer_on_points(program: Program, points: list[Points], start: Array | None
     """
     if all(map(of_cones, program.families)):
         answer = optimum_on_points(program, points)
-        if answer.success or not program.curved:
+        if answer.success or not program.curved or answer.status == INFEASIBLE:
             return answer
     return stepwise_on_points(program, points, np.zeros(program.size) if start is None else start)
 
