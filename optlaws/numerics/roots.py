@@ -162,7 +162,7 @@ def falling_root(
     is halved. So far from the first place as `widest`, nothing more is sought: the last place is what is known.
 
     >>> (
-    ...     round(falling_root(lambda x: np.exp(-x) - 2.0, 0.0, 0.5, 1e-12), 9),
+    ...     round(float(falling_root(lambda x: np.exp(-x) - 2.0, 0.0, 0.5, 1e-12)), 9),
     ...     falling_root(lambda x: 1.0, 0.0, 0.5, 1e-12),
     ... )
     (-0.693147181, inf)
