@@ -22,6 +22,8 @@ _MEDIAN = 0.674490
 LEAST_NOISE = 1e-9
 #: the order of the differences in which a single point far off stands out, and from how many deviations on it may
 _FAR_ORDER, _SUSPECT = 6, 6.0
+#: in fewer rows, in orders of the differences, these tell the motion itself from noise nowhere
+_ROWS_TO_STAND_OUT = 6
 #: a point far off is so from where either side goes on, by so much of the size that the filter gives it
 _BOTH = 0.35
 #: noise that is less, in standard deviations of rounding, may be rounding alone
@@ -186,7 +188,7 @@ def _far_points(places: Array, heights: Array, noise: float) -> Mask:
     """Points that stand out of the motion by the filter that is matched to one point far off in differences."""
     order, count = _FAR_ORDER, len(heights)
     far, seen = np.zeros((2, count), dtype=bool)
-    if count <= 3 * order:
+    if count <= _ROWS_TO_STAND_OUT * order:
         return far
     pattern = np.array([float(term) for term in np.poly(np.ones(order))])
     rest = heights.astype(np.float64).copy()
