@@ -40,7 +40,7 @@ def test_the_rise_of_an_open_run_time_has_a_law_within_every_tolerance(tolerance
     assert np.abs(np.array(law.boundary_values(3)) - [[0.0] * 3, [1.0, 0.0, 0.0]]).max() <= 1e-9
 
 
-@pytest.mark.xfail(strict=True, reason="at the seam of 21 coarse rows the fitted moves begin and end with other velocities")
+@pytest.mark.xfail(strict=True, reason="fitted moves of 21 coarse rows meet at the seam with other velocities")
 def test_the_whole_table_of_an_open_run_time_is_a_rise_and_a_return() -> None:
     y = np.array(numbers()["rtmotion"]["y"])
     split = split_table(np.linspace(0.0, 360.0, len(y)), y)
