@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import stat
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterable, Mapping, Sequence
@@ -22,6 +23,8 @@ LARGEST_TOML = 1_000_000
 LARGEST_JSON = 64_000_000
 DEEPEST = 50
 _MOST_BITS = 1024
+#: as letters of Central Europe look in Latin-1
+_SIGN_IN_WORD = re.compile("[^\\W\\d_][\u0080-\u00bf\u00d7\u00f7][^\\W\\d_]")
 #: the newest format of proofs and laws that is read; an object without a `format` is of the first
 FORMAT = 1
 #: of a JSON text: values (what parts them, and escapes in texts), and lists and objects, each of which takes as much
@@ -30,7 +33,9 @@ _MOST_VALUES, _MOST_BRACKETS = 3_600_000, 600_000
 
 
 def text(file: Path, largest: int = LARGEST_JSON, *, legacy: bool = False) -> str:
-    """The text of a regular file in UTF-8, without its byte order mark; with `legacy` in UTF-16 or Latin-1, too.
+    """The text of a regular file in UTF-8, without its byte order mark; with `legacy` also in older encodings.
+
+    These are UTF-16, Latin-1 and, where signs of Latin-1 would stand within words, Windows-1250 of Central Europe.
 
     Examples
     --------
@@ -54,7 +59,8 @@ def text(file: Path, largest: int = LARGEST_JSON, *, legacy: bool = False) -> st
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
         if legacy and b"\0" not in data:
-            return data.decode("latin-1")
+            western = data.decode("latin-1")
+            return data.decode("cp1250", errors="replace") if _SIGN_IN_WORD.search(western) else western
         if legacy and data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
             return data.decode("utf-16", errors="replace")
         raise InputError(f"{name} is not a text file in UTF-8") from None

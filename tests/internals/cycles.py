@@ -17,7 +17,7 @@ from optlaws.cycles.specification.limits import LIMITS_OF_CYCLE, LIMITS_OF_MOVE
 from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.cycles.usual_law import USUAL, usual_cycle
 from optlaws.files import reading
-from optlaws.laws.catalogue.reading import LARGEST_TABLE
+from optlaws.laws.catalogue.tables.columns import LARGEST_TABLE
 from optlaws.motion.quantities import Kind
 from optlaws.synthesis.least_time.timed_move import RATES as OBJECTIVES_OF_MOVES
 

@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from math import isfinite
 from struct import pack, unpack
-from typing import NamedTuple
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -17,9 +16,8 @@ import numpy as np
 from optlaws.cycles.old_tables.layouts import LAYOUTS, CurvePiece, FieldLayout, of_profile, powers
 from optlaws.echo import shortened
 from optlaws.errors import InputError, located
+from optlaws.laws.catalogue.tables.tokens import TextCell, uncommented
 
-#: comments of IEC 61131-3, C and YAML
-_COMMENT = re.compile(r"\(\*.*?\*\)|/\*.*?\*/|//[^\n]*|(?m:^\s*#[^\n]*)", re.DOTALL)
 #: a field with its value, and the number of the element that it is of where that is beside it
 _FIELD = re.compile(r"(?:\[(\d+)\]\s*\.\s*)?\b([A-Za-z_]\w*)\s*:=\s*([^\s,;:()\[\]{}=]+)")
 #: how many points a file says that it has
@@ -27,7 +25,6 @@ _COUNT = re.compile(r"\b(?:nElements|NoOfRows|PolynomialNumber|NumberOfPoints)\s
 _BOUNDS = re.compile(r"\bARRAY\s*\[\s*(\d+)\s*\.\.\s*(\d+)\s*(,[^\]]*)?\]\s*OF", re.IGNORECASE)
 _ARRAY = re.compile(r"([^;\n]*?)(?::=|(?<![:=<>])=)\s*(?=\[)")
 _INNER = re.compile(r"\[([^\[\]]*)\]")
-_TYPED = re.compile(r"^(?:L?REAL|[US]?D?INT)#", re.IGNORECASE)
 #: values of a field that is left to the controller
 _ABSENT = {"nan", "#ignore", "ignore"}
 _YAML = re.compile(r"\b(positions|velocities|accelerations):\s*\[([^\]]*)\]")
@@ -48,24 +45,7 @@ class Decoded:
     pieces: list[CurvePiece] = field(default_factory=list)
 
 
-class _Value(NamedTuple):
-    """The value of a field, and the line where it stands."""
-
-    text: str
-    line: int
-
-    def number(self, suffix: str = "") -> float:
-        """The field as a number, without a suffix of C."""
-        try:
-            value = float(_TYPED.sub("", self.text).replace("_", "").rstrip(suffix))
-        except ValueError:
-            raise InputError(f"line {self.line}: {shortened(self.text)} is no number") from None
-        if not isfinite(value):
-            raise InputError(f"line {self.line}: {self.text} is no finite number")
-        return value
-
-
-_Record = dict[str, _Value]
+_Record = dict[str, TextCell]
 
 
 def decoded(content: str, cam: str | None = None) -> Decoded | None:
@@ -78,10 +58,10 @@ def decoded(content: str, cam: str | None = None) -> Decoded | None:
     """
     if content.lstrip().startswith("<"):
         content = _of_xml(content, cam)
-    text = _COMMENT.sub(_blank, content)
+    text = uncommented(content)
     if "joint_names:" in text:
         text = _of_yaml(text, cam)
-    fields = [(m[1], m[2].lower(), _Value(m[3], _line(text, m.start(2)))) for m in _FIELD.finditer(text)]
+    fields = [(m[1], m[2].lower(), TextCell(m[3], _line(text, m.start(2)))) for m in _FIELD.finditer(text)]
     names = {name for _, name, _ in fields}
     layout = max(
         (layout for layout in LAYOUTS if layout.needed <= names),
@@ -94,10 +74,6 @@ def decoded(content: str, cam: str | None = None) -> Decoded | None:
             _check_count(text, len(records))
             return _of_records(layout, records)
     return _of_arrays(text)
-
-
-def _blank(match: re.Match[str]) -> str:
-    return "\n" * match[0].count("\n") or " "
 
 
 def _line(text: str, place: int) -> int:
@@ -167,7 +143,7 @@ def _of_yaml(text: str, cam: str | None) -> str:
     return _YAML_TIME.sub(lambda m: f"time_from_start := {int(m[1])}.{int(m[2]):09d}", _YAML.sub(of_joint, text))
 
 
-def _records(layout: FieldLayout, fields: Sequence[tuple[str | None, str, _Value]]) -> Iterator[_Record]:
+def _records(layout: FieldLayout, fields: Sequence[tuple[str | None, str, TextCell]]) -> Iterator[_Record]:
     """The elements of a structure: each begins with the field that the first one begins with."""
     begins, record, before = None, _Record(), -1
     for index, name, value in fields:
@@ -243,7 +219,7 @@ def _profile(layout: FieldLayout, record: _Record) -> str | None:
     if "type" not in record:
         return None
     text = record["type"].text
-    return (layout.profiles or {}).get(text, re.sub(r"^(?:.*\.)?(?:MOTIONFUNCTYPE_)?", "", text)) or None
+    return (layout.profiles or {}).get(text, re.sub(r"^(?:.*[.#])?(?:MOTIONFUNCTYPE_)?", "", text)) or None
 
 
 def _in_line(record: _Record) -> AbstractContextManager[None]:
@@ -286,7 +262,7 @@ def _of_arrays(text: str) -> Decoded | None:
     return _of_rows(text, rows) if len(rows) > 1 else None
 
 
-def _of_rows(text: str, rows: list[list[_Value]]) -> Decoded | None:
+def _of_rows(text: str, rows: list[list[TextCell]]) -> Decoded | None:
     """Rows of two to five numbers, or elements of CAM_PROFILE."""
     width = len(rows[0])
     for row in rows:
@@ -317,15 +293,15 @@ def _closed(text: str, start: int) -> int | None:
     return None
 
 
-def _rows(text: str, start: int, body: str) -> Iterator[list[_Value]]:
+def _rows(text: str, start: int, body: str) -> Iterator[list[TextCell]]:
     for match in _INNER.finditer(body):
         yield [
-            _Value(cell[0], _line(text, start + match.start(1) + cell.start()))
+            TextCell(cell[0], _line(text, start + match.start(1) + cell.start()))
             for cell in re.finditer(r"[^\s,()]+", match[1])
         ]
 
 
-def _pairs(head: str, flat: list[_Value]) -> list[list[_Value]]:
+def _pairs(head: str, flat: list[TextCell]) -> list[list[TextCell]]:
     """The pairs of an array of two dimensions; none of another one."""
     bounds = _BOUNDS.search(head)
     if bounds is None or not bounds[3]:
@@ -337,7 +313,7 @@ def _pairs(head: str, flat: list[_Value]) -> list[list[_Value]]:
     return [flat[i : i + 2] for i in range(0, len(flat), 2)]
 
 
-def _used(rows: list[list[_Value]]) -> list[list[_Value]]:
+def _used(rows: list[list[TextCell]]) -> list[list[TextCell]]:
     """The rows without repetitions of the last row at the end, and without rows of zeros."""
     texts = [[cell.text for cell in row] for row in rows]
     count = len(rows)
@@ -348,7 +324,7 @@ def _used(rows: list[list[_Value]]) -> list[list[_Value]]:
     return rows[:count]
 
 
-def _of_cam_profile(rows: Sequence[Sequence[_Value]]) -> Decoded:
+def _of_cam_profile(rows: Sequence[Sequence[TextCell]]) -> Decoded:
     """Elements of CAM_PROFILE: status, X, Y, kind, C0 to C3, numbers of 64 bits in halves."""
     values = []
     for row in rows:

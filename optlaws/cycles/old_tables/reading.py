@@ -14,7 +14,8 @@ from optlaws.cycles.old_tables.controller_files import Decoded, decoded
 from optlaws.cycles.old_tables.layouts import CurvePiece, hermite
 from optlaws.echo import shortened
 from optlaws.errors import InputError, located
-from optlaws.laws.catalogue.reading import TablePoints, points_of, resolution_of
+from optlaws.laws.catalogue.tables.columns import TablePoints, points_of, resolution_of
+from optlaws.laws.catalogue.tables.tokens import uncommented
 from optlaws.motion.quantities import either
 from optlaws.numbers import Array
 
@@ -120,10 +121,10 @@ def _of_columns(
 
 def _columns_layout(content: str, points: TablePoints) -> tuple[str, float]:
     """The layout of columns, and the factors of their numbers; refuses a table that states another number of points."""
-    lines = [line.strip() for line in content.splitlines() if line.strip()]
-    keywords = {line.split()[0].lower() for line in lines}  # a comment may follow
-    first, count = lines[0], points.lines[-1] - points.lines[0] + 1
-    count -= sum(not line.strip() for line in content.splitlines()[points.lines[0] - 1 : points.lines[-1]])
+    lines = uncommented(content).splitlines()
+    count = sum(bool(line.strip()) for line in lines[points.lines[0] - 1 : points.lines[-1]])
+    lines = [line.strip() for line in lines if line.strip()]
+    keywords, first = {line.split()[0].lower() for line in lines}, lines[0]
     if any(line.startswith("TABLE_BEGIN") for line in lines):
         if not any(line.startswith("TABLE_END") for line in lines):
             raise InputError("the table has no TABLE_END: its end is missing")

@@ -29,7 +29,7 @@ from optlaws.cycles.old_tables.stretches import (
 from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, Rise
 from optlaws.errors import InputError, located
 from optlaws.files import reading
-from optlaws.laws.catalogue.reading import LARGEST_TABLE
+from optlaws.laws.catalogue.tables.columns import LARGEST_TABLE
 from optlaws.motion.quantities import QUANTITIES, Exact, either
 from optlaws.numbers import Array, Quantity, not_negative, numbers, positive
 from optlaws.sentences import Amount, joined, sentence

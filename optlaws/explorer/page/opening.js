@@ -71,7 +71,7 @@ export class Opening {
   }
 }
 
-/** The text of a file in UTF-8, in UTF-16 with its mark, or in Latin-1. */
+/** The text of a file in UTF-8, in UTF-16 with its mark, in Latin-1 or, where signs would stand within words, in Windows-1250. */
 export async function textOf(file) {
   if (file.size > LARGEST) throw new Error(`${file.name} is larger than ${LARGEST / 1000} kB: start \`optlaws explore\` with it`);
   const bytes = new Uint8Array(await file.arrayBuffer());
@@ -81,7 +81,8 @@ export async function textOf(file) {
     return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
   } catch {
     if (bytes.includes(0)) throw new Error(`${file.name} is not a text file`);
-    return new TextDecoder("latin1").decode(bytes);
+    const western = new TextDecoder("latin1").decode(bytes);
+    return /\p{L}[\u0080-\u00bf\u00d7\u00f7]\p{L}/u.test(western) ? new TextDecoder("windows-1250").decode(bytes) : western;
   }
 }
 

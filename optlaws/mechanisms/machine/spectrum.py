@@ -17,7 +17,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.laws.catalogue.reading import points_of
+from optlaws.laws.catalogue.tables.columns import points_of
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine.drives import Forcing, forcings
 from optlaws.mechanisms.machine.transforms import legendre_from_chebyshev, moments, residual_phasor, roots

@@ -1,0 +1,1 @@
+"""Tables of points: columns of text, and the layouts of controllers."""
