@@ -1,7 +1,10 @@
 """Internals of `optlaws.cycles` that tests look at by themselves."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from optlaws.cycles.answers import Answers, answer
 from optlaws.cycles.axes.enclosed import SimplePolygon
@@ -23,5 +26,11 @@ from optlaws.synthesis.least_time.timed_move import RATES as OBJECTIVES_OF_MOVES
 
 
 def read_points(file: Path, *columns: Any, **options: Any) -> CamPoints:
-    """The points of a file, as `optlaws.read_cycle_table` reads them."""
-    return points_in(reading.text(file, LARGEST_TABLE, legacy=True), file, *columns, **options)
+    """The points of a file, as `optlaws.read_cycle_table` reads them, and places of the functions between them."""
+    points = points_in(reading.text(file, LARGEST_TABLE, legacy=True), file, *columns, **options)
+    if not points.pieces:
+        return points
+    u = np.linspace(0.0, 1.0, 31)
+    places = np.concatenate([piece.start + piece.length * u for piece in points.pieces])
+    heights = np.concatenate([piece.at(u) for piece in points.pieces])
+    return replace(points, places=places, heights=heights)

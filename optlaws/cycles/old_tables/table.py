@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.old_tables.controller_files import FEWEST_POINTS
 from optlaws.cycles.old_tables.frame import closed, in_order, in_unit, period_of
 from optlaws.cycles.old_tables.motion import NOISE_ROOM, motion_of
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
-from optlaws.cycles.old_tables.reading import CamPoints, points_in
+from optlaws.cycles.old_tables.reading import CamPoints, TableUnits, points_in
 from optlaws.cycles.old_tables.samples import samples_of
+from optlaws.cycles.old_tables.stated_functions import stretches_of_pieces
 from optlaws.cycles.old_tables.stretches import (
     MoveGain,
     Stretch,
@@ -30,6 +30,8 @@ from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, R
 from optlaws.errors import InputError, located
 from optlaws.files import reading
 from optlaws.laws.catalogue.tables.columns import LARGEST_TABLE
+from optlaws.laws.catalogue.tables.controller_files import FEWEST_POINTS
+from optlaws.laws.catalogue.tables.curve_pieces import CurvePiece
 from optlaws.motion.quantities import QUANTITIES, Exact, either
 from optlaws.numbers import Array, Quantity, not_negative, numbers, positive
 from optlaws.sentences import Amount, joined, sentence
@@ -299,6 +301,10 @@ class OldTable:
     def peak_in_words(self, nu: int) -> str:
         """Between which values the greatest derivative of order nu is, by the points."""
         low, high = self.peaks[nu - 1]
+        if low == inf:
+            return sentence("{} without bound", QUANTITIES[nu])
+        if low == high:
+            return sentence("{} {}", QUANTITIES[nu], Amount(low, self.unit_of(nu), 4))
         least, most = (Amount(value, self.unit_of(nu), 4) for value in (low, high))
         if high == inf:
             return sentence("{} above {}, how much cannot be known from this table", QUANTITIES[nu], least)
@@ -389,23 +395,42 @@ def table_of(
     rows: int | None = None,
 ) -> OldTable:
     """The table of points with units, divided as by `read_cycle_table`; errors call the table `path`."""
-    units = points.units
+    units, fewest = points.units, 2 if points.pieces else FEWEST_POINTS
     with located(str(path)):
-        if rows is not None and not FEWEST_POINTS <= rows <= len(points.places):
-            raise InputError(
-                f"rows must be from {FEWEST_POINTS} to the {len(points.places)} points that it has, got {rows}"
-            )
-        table = split_table(
-            points.places[:rows],
-            points.heights[:rows],
-            turn=in_unit(turn, units.master, ("angle", "time", "length"), "turn"),
-            advance=in_unit(advance, units.slave, ("length", "angle"), "advance"),
-            tolerance=tolerance,
-            unit=units.slave,
-            master=units.master,
-            digit=points.digit,
-        )
+        if rows is not None and not fewest <= rows <= len(points.places):
+            raise InputError(f"rows must be from {fewest} to the {len(points.places)} points that it has, got {rows}")
+        places, heights = points.places[:rows], points.heights[:rows]
+        length = in_unit(turn, units.master, ("angle", "time", "length"), "turn")
+        step = in_unit(advance, units.slave, ("length", "angle"), "advance")
+        if points.pieces:
+            table = _of_pieces(points.pieces[: len(places) - 1], places, heights, units, length, step, tolerance)
+        else:
+            table = split_table(
+                places, heights, turn=length, advance=step, tolerance=tolerance, unit=units.slave, master=units.master,
+                digit=points.digit,
+            )  # fmt: skip
     return replace(table, layout=points.layout, rate=units.rate)
+
+
+def _of_pieces(
+    pieces: Sequence[CurvePiece],
+    places: Array,
+    heights: Array,
+    units: TableUnits,
+    turn: float | None,
+    advance: float | None,
+    tolerance: float | None,
+) -> OldTable:
+    """The table of functions that are stated between points."""
+    if len(closed(places, heights, turn, advance)[0]) > len(places):
+        raise InputError(
+            f"what runs from the last point, at {places[-1]:.9g}, to the end of the turn is not stated: add the point "
+            "of its end, or leave turn out"
+        )
+    room = max(not_negative(tolerance or 0.0, "tolerance"), _STANDARD_LAW_ROOM * float(np.ptp(heights)))
+    whole = turn is not None or either(f"1 {units.master}", ("angle", "time", "length"), "master")[0] == "length"
+    stretches, seam = stretches_of_pieces(pieces, room), seam_of(heights, room)
+    return OldTable(stretches, room, 0.0, seam, units.slave, units.master, places, heights, whole=whole)
 
 
 def split_table(

@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from optlaws.echo import shortened
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.files import reading
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.catalogue.tables.columns import points_of
+from optlaws.laws.catalogue.tables.curve_pieces import law_of_pieces
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.making.through_points import MOST_THROUGH, law_of_table, law_through
 from optlaws.laws.savin import FAMILIES, SavinFamily
@@ -53,6 +54,9 @@ def law_of_points(
         If the file cannot be read, has more columns and none are chosen, a line is no point, or no law keeps to them.
     """
     points = points_of(file, columns, content=content)
+    if points.pieces and tolerance is None:
+        with located(str(file)):
+            return law_of_pieces(points.pieces)
     k, a, unit, stroke = points.places, points.heights, points.digit, abs(points.heights[-1] - points.heights[0])
     if unit > _COARSEST * stroke > 0.0:
         raise InputError(f"{file}: the displacements have too few digits, {unit:g} of a stroke of {stroke:g}")

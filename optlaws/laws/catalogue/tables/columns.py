@@ -4,18 +4,31 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
 from optlaws.echo import shortened
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.files import reading
 from optlaws.files.writing import MARK
+from optlaws.laws.catalogue.tables.controller_files import decoded
+from optlaws.laws.catalogue.tables.curve_pieces import pieces_between
+from optlaws.laws.catalogue.tables.table_points import TablePoints, resolution_of
 from optlaws.laws.catalogue.tables.tokens import NUMBER, cells_of, no_number, uncommented
+from optlaws.numbers import Array
 
 #: bytes of a table
 LARGEST_TABLE = 20_000_000
 _MOST_POINTS = 100_000
+_RATE = 0.25  # velocities that are so near the slopes of the positions are by the master, not the second
+_SLOPE = 0.5  # of the greatest velocity: one that is farther from the slope of the positions is wrong
+#: tables whose numbers count so many degrees or millimetres
+ISG, _ISG_DIGIT = "ISG and TwinCAT CNC", 1e-4
+_HEADER, _BLANK = re.compile(r"^\s*([A-Za-z][\w \t-]*?)\s*=\s*(\S+)", re.MULTILINE), re.compile(r"\s")
+_KEYWORD = re.compile(r"[\s;]")
 _SEPARATORS = (";", "\t", ",", "|", None)
 #: a heading up to its unit
 _HEADING = re.compile(r"[^\s,;(\[]*")
@@ -43,35 +56,15 @@ class _Line(NamedTuple):
         return [NUMBER.fullmatch(self.cells[i]) if i < len(self.cells) else None for i in columns]
 
 
-class TablePoints(NamedTuple):
-    """The points of a table.
-
-    Attributes
-    ----------
-    places, heights
-        Times or angles, and displacements, as the table has them.
-    digit
-        The unit of the last digit of the displacements.
-    lines
-        Where the points stand in the file.
-    derivatives
-        Velocities, accelerations and jerks by the master, as many as are read.
-    headings
-        Above the columns of places and of heights, with the units behind their numbers; empty where there are none.
-    """
-
-    places: list[float]
-    heights: list[float]
-    digit: float
-    lines: list[int]
-    derivatives: tuple[list[float], ...] = ()
-    headings: tuple[str, str] = ("", "")
-
-
 def points_of(
-    file: Path, columns: Sequence[Column] | None = None, *, most: int = 2, content: str | None = None
+    file: Path,
+    columns: Sequence[Column] | None = None,
+    *,
+    most: int = 2,
+    content: str | None = None,
+    cam: str | None = None,
 ) -> TablePoints:
-    """The points of a table, as `law_of_points` reads it.
+    """The points of a table in any layout: columns of text, or what a controller has.
 
     Parameters
     ----------
@@ -83,6 +76,8 @@ def points_of(
         How many columns are read: 2 without derivatives.
     content
         The text of the file where it has been read.
+    cam
+        Which cam of a file with several.
 
     Raises
     ------
@@ -90,6 +85,13 @@ def points_of(
         If the file cannot be read, has more columns and none are chosen, or a line is no point.
     """
     text = reading.text(file, LARGEST_TABLE, legacy=True) if content is None else content
+    if columns is None:
+        with located(str(file)):
+            known = decoded(text, cam)
+        if known is not None:
+            return known
+    if cam is not None:
+        raise InputError(f"{file} has columns of numbers, and no cam {shortened(cam)}: choose two by columns")
     lines, headings = _lines_of(text, str(file))
     chosen = _chosen(columns, headings, lines[0], str(file), most, written_by_optlaws=MARK in text)
     while not any(lines[-1].numbers(chosen)):
@@ -98,11 +100,86 @@ def points_of(
     texts = [[str(match[1]).replace(",", ".") for match in row] for row in matches]
     distinct = [i for i, row in enumerate(texts) if not i or row != texts[i - 1]]
     places, heights, *derivatives = ([float(texts[i][n]) for i in distinct] for n in range(len(chosen)))
-    above = (headings[i] if i < len(headings) else "" for i in chosen[:2])
-    of_place, of_height = (f"{name} {match[2] or ''}".strip() for name, match in zip(above, matches[0], strict=False))
-    digit = resolution_of([texts[i][1] for i in distinct], heights)
-    numbered = [lines[i].number for i in distinct]
-    return TablePoints(places, heights, digit, numbered, tuple(derivatives), (of_place, of_height))
+    above = [headings[i] if i < len(headings) else "" for i in chosen[:2]]
+    names = [f"{name} {match[2] or ''}".strip() for name, match in zip(above, matches[0], strict=False)]
+    digit, numbered = resolution_of([texts[i][1] for i in distinct], heights), [lines[i].number for i in distinct]
+    points = TablePoints(places, heights, digit, "columns of numbers", units=(names[0], names[1]), lines=numbered)
+    with located(str(file)):
+        if derivatives:
+            return _with_derivatives(points, derivatives)
+        return _with_keywords(points, uncommented(text), len(lines))
+
+
+def _with_derivatives(points: TablePoints, derivatives: Sequence[Sequence[float]]) -> TablePoints:
+    """The polynomials between points with derivatives, which may be by the second."""
+    places, heights, velocities = map(np.array, (points.places, points.heights, derivatives[0]))
+    rate = rate_of(places, heights, velocities, points.lines)
+    scaled = ([value / rate**nu for value in row] for nu, row in enumerate(derivatives, start=1))
+    rows = list(zip(points.places, points.heights, *scaled, strict=True))
+    pieces = pieces_between(rows, [None] * len(rows), points.lines)
+    return TablePoints.of_pieces(pieces, points.layout, units=points.units, lines=points.lines)
+
+
+def rate_of(places: Array, heights: Array, velocities: Array, lines: Sequence[int]) -> float:
+    """The speed of the master where velocities are per second; 1 where they are per unit of the master.
+
+    The integral of their magnitude by the trapezium rule, which is sharp between rests, is the way of the positions
+    times the rate.
+
+    >>> x = np.linspace(0.0, 10.0, 101)
+    >>> round(rate_of(x, np.sin(x), 5.0 * np.cos(x), range(101)), 2), rate_of(x, np.sin(x), np.cos(x), range(101))
+    (5.0, 1.0)
+    """
+    steps, means = np.diff(places), 0.5 * (velocities[1:] + velocities[:-1])
+    way = float(np.abs(np.diff(heights)).sum())
+    rate = float(np.abs(steps * means).sum()) / way if way else 1.0
+    off = np.abs(means - rate * np.diff(heights) / steps) / max(float(np.abs(velocities).max()), np.finfo(float).tiny)
+    worst = int(np.argmax(off))
+    if not rate > 0.0 or off[worst] > _SLOPE:
+        raise InputError(f"line {lines[worst]}: the velocity there is not that of the positions: check the columns")
+    return 1.0 if abs(rate - 1.0) < _RATE else rate
+
+
+def _with_keywords(points: TablePoints, text: str, count: int) -> TablePoints:
+    """The points of a layout with keywords around its columns, or the functions between them where it states these."""
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    keywords = {_KEYWORD.split(line)[0].casefold() for line in lines}
+    stated = lines[0] if lines[0].isdigit() else None
+    layout = "SEW MOVI-C" if stated else points.layout
+    for begin, end, name in (("TABLE_BEGIN", "TABLE_END", "Kollmorgen KAS"), ("Begintable", "EndTable", ISG)):
+        if begin.casefold() in keywords:
+            layout = name
+            if end.casefold() not in keywords:
+                raise InputError(f"the table has no {end}: its end is missing")
+    header = (
+        {_BLANK.sub("", match[1]).casefold(): match[2] for match in _HEADER.finditer(text)} if layout == ISG else {}
+    )
+    stated = header.get("lines", stated)
+    if stated is not None and int(stated) != count:
+        raise InputError(f"the file states {stated} points and contains {count}: lines are missing or superfluous")
+    if layout != ISG:
+        return replace(points, layout=layout)
+    places, heights = ([_ISG_DIGIT * value for value in row] for row in (points.places, points.heights))
+    points = replace(points, layout=layout, places=places, heights=heights, digit=_ISG_DIGIT * points.digit)
+    kind = header.get("functiontype")
+    return _of_lines_and_polynomials(points, first_is_line=kind == "5") if kind in {"4", "5"} else points
+
+
+def _of_lines_and_polynomials(points: TablePoints, *, first_is_line: bool) -> TablePoints:
+    """The straight lines and polynomials that alternate between the points of a turn of 360 deg, and over its seam.
+
+    Types 4 and 5 of the kernel's manual: polynomials of degree 5 go on with the slopes of the lines beside them,
+    without acceleration. It counts from the seam: in POLY5-LINE the first points have a line between them.
+    """
+    if len(points.places) % 2:
+        raise InputError(
+            f"lines and polynomials alternate over an even number of points, and the table has {len(points.places)}"
+        )
+    rows = [*zip(points.places, points.heights, strict=True), (points.places[0] + 360.0, points.heights[0])]
+    both = ["line", "polyfive"] if first_is_line else ["polyfive", "line"]
+    lines = [*points.lines, points.lines[-1]]
+    pieces = pieces_between(rows, both * (len(rows) // 2), lines, endless=True)
+    return TablePoints.of_pieces(pieces, points.layout, units=points.units, lines=points.lines)
 
 
 def _lines_of(content: str, name: str) -> tuple[list[_Line], list[str]]:
@@ -199,14 +276,3 @@ def _checked(lines: list[_Line], columns: tuple[int, ...], name: str) -> list[li
             raise InputError(f"{where}: {cells} is in other units than the line above: mend the line")
         rows.append(row)
     return rows
-
-
-def resolution_of(texts: list[str], values: list[float]) -> float:
-    """The unit of the last digit of the large values: small values have more decimals, round ones fewer."""
-    large = 0.1 * max(map(abs, values))
-    return min(_last_digit(text) for text, value in zip(texts, values, strict=True) if abs(value) >= large)
-
-
-def _last_digit(text: str) -> float:
-    digits, _, exponent = text.replace(",", ".").lower().partition("e")
-    return 10.0 ** (int(exponent or 0) - len(digits.partition(".")[2]))

@@ -5,17 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import dataclass, field
-from itertools import pairwise
 from math import isfinite
 from struct import pack, unpack
 from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from optlaws.cycles.old_tables.layouts import LAYOUTS, CurvePiece, FieldLayout, of_profile, powers
 from optlaws.echo import shortened
 from optlaws.errors import InputError, located
+from optlaws.laws.catalogue.tables.curve_pieces import CurvePiece, degree_of, of_profile, pieces_between, powers
+from optlaws.laws.catalogue.tables.layouts import LAYOUTS, FieldLayout
+from optlaws.laws.catalogue.tables.table_points import TablePoints, resolution_of
 from optlaws.laws.catalogue.tables.tokens import TextCell, uncommented
 
 #: a field with its value, and the number of the element that it is of where that is beside it
@@ -35,20 +35,10 @@ FEWEST_POINTS = 12
 _KINDS_OF_CAM = ("CAM", "CAM_EXTENDED", "CAM_PROFILE")
 
 
-@dataclass(frozen=True)
-class Decoded:
-    """Content of a controller's file: texts of points, or pieces between them where the file states their kind."""
-
-    layout: str
-    places: list[str] = field(default_factory=list)
-    heights: list[str] = field(default_factory=list)
-    pieces: list[CurvePiece] = field(default_factory=list)
-
-
 _Record = dict[str, TextCell]
 
 
-def decoded(content: str, cam: str | None = None) -> Decoded | None:
+def decoded(content: str, cam: str | None = None) -> TablePoints | None:
     """Content of a program or a project, of one `cam` of several; None for other files, such as columns of numbers.
 
     Raises
@@ -177,7 +167,7 @@ def _check_count(text: str, count: int) -> None:
             )
 
 
-def _of_records(layout: FieldLayout, records: Sequence[_Record]) -> Decoded:
+def _of_records(layout: FieldLayout, records: Sequence[_Record]) -> TablePoints:
     for record in records:
         line = next(iter(record.values())).line
         missing = records[0].keys() - record.keys()
@@ -189,19 +179,18 @@ def _of_records(layout: FieldLayout, records: Sequence[_Record]) -> Decoded:
             )
     roles = records[0].keys()
     if "x" not in roles:
-        return Decoded(layout.name, pieces=list(_pieces(layout, records)))
+        return TablePoints.of_pieces(list(_pieces(layout, records)), layout.name)
     points = list(map(_point, records))
-    orders = min(len(point) - 1 for point in points)
-    places, heights = ([record[role].text for record in records] for role in "xy")
-    if orders < 2 and "type" not in roles:
-        return Decoded(layout.name, places, heights)
-    pieces = []
-    for i, (first, last) in enumerate(pairwise(points)):
-        profile = _profile(layout, records[i])
-        known = min(len(first), len(last)) - 1
-        with _in_line(records[i]):
-            pieces.append(of_profile(profile, (first[0], last[0]), first[1 : known + 1], last[1 : known + 1]))
-    return Decoded(layout.name, places, heights, pieces)
+    profiles = [_profile(layout, record) for record in records]
+    straight = "type" in roles and all(profile and degree_of(profile) == 1 for profile in profiles[:-1])
+    lines = [next(iter(record.values())).line for record in records]
+    if ("type" not in roles and min(map(len, points)) < 3) or (straight and len(points) >= FEWEST_POINTS):
+        # samples of a motion, whatever runs between them
+        places, heights = ([point[i] for point in points] for i in (0, 1))
+        digit = resolution_of([record["y"].text for record in records], heights)
+        return TablePoints(places, heights, digit, layout.name, lines=lines, units=layout.units)
+    pieces = pieces_between(points, profiles, lines)
+    return TablePoints.of_pieces(pieces, layout.name, lines=lines, units=layout.units)
 
 
 def _point(record: _Record) -> list[float]:
@@ -243,7 +232,7 @@ def _pieces(layout: FieldLayout, records: Sequence[_Record]) -> Iterator[CurvePi
         begin = stop
 
 
-def _of_arrays(text: str) -> Decoded | None:
+def _of_arrays(text: str) -> TablePoints | None:
     """Arrays of numbers: rows of points, elements of CAM_PROFILE, breaks with coefficients."""
     text = text.translate({ord("{"): "[", ord("}"): "]"})
     arrays = []
@@ -262,7 +251,7 @@ def _of_arrays(text: str) -> Decoded | None:
     return _of_rows(text, rows) if len(rows) > 1 else None
 
 
-def _of_rows(text: str, rows: list[list[TextCell]]) -> Decoded | None:
+def _of_rows(text: str, rows: list[list[TextCell]]) -> TablePoints | None:
     """Rows of two to five numbers, or elements of CAM_PROFILE."""
     width = len(rows[0])
     for row in rows:
@@ -277,8 +266,8 @@ def _of_rows(text: str, rows: list[list[TextCell]]) -> Decoded | None:
     records = [dict(zip(("x", "y", "v", "a", "type")[: 2 if width == 3 else width], row, strict=False)) for row in rows]
     names = {2: "array of pairs", 3: "Rockwell CAM", 5: "RTmotion McCamXYVA"}
     layout = FieldLayout(names[width], "x=x y=y v=v a=a type=type")
-    points = list(map(_point, records))
-    if min(map(len, points)) < 4:
+    straight = any(degree_of(record["type"].text) == 1 for record in records if "type" in record)
+    if not straight and min(len(_point(record)) for record in records) < 4:
         records = [{role: record[role] for role in "xy"} for record in records]
     return _of_records(layout, records)
 
@@ -324,7 +313,7 @@ def _used(rows: list[list[TextCell]]) -> list[list[TextCell]]:
     return rows[:count]
 
 
-def _of_cam_profile(rows: Sequence[Sequence[TextCell]]) -> Decoded:
+def _of_cam_profile(rows: Sequence[Sequence[TextCell]]) -> TablePoints:
     """Elements of CAM_PROFILE: status, X, Y, kind, C0 to C3, numbers of 64 bits in halves."""
     values = []
     for row in rows:
@@ -335,16 +324,18 @@ def _of_cam_profile(rows: Sequence[Sequence[TextCell]]) -> Decoded:
         values.append(list(unpack(">6d", packed)))
         if not all(map(isfinite, values[-1])):
             raise InputError(f"line {row[0].line}: an element of CAM_PROFILE holds no finite number")
-    places, heights = ([repr(numbers[i]) for numbers in values] for i in (0, 1))
     pieces = []
     for row, (x, y, *constants), (stop, *_) in zip(rows, values, values[1:], strict=False):
         with _in_line({"x": row[0]}):
             pieces.append(powers(x, stop, [y + constants[0], *constants[1:]]))
+    if len(values) < FEWEST_POINTS:
+        return TablePoints.of_pieces(pieces, "Rockwell CAM_PROFILE")
     # the points are the cam, and the spline through them the controller's
-    return Decoded("Rockwell CAM_PROFILE", places, heights, [] if len(values) >= FEWEST_POINTS else pieces)
+    places, heights = ([numbers[i] for numbers in values] for i in (0, 1))
+    return TablePoints(places, heights, resolution_of(list(map(repr, heights)), heights), "Rockwell CAM_PROFILE")
 
 
-def _of_source(text: str, named: dict[str, tuple[str, int, str]]) -> Decoded:
+def _of_source(text: str, named: dict[str, tuple[str, int, str]]) -> TablePoints:
     """Breaks and coefficients of a function block or a header."""
     cells = {}
     for name, (head, start, body) in named.items():
@@ -364,4 +355,4 @@ def _of_source(text: str, named: dict[str, tuple[str, int, str]]) -> Decoded:
     for low, high, row, cell in zip(breaks, breaks[1:], rows, cells["breaks"], strict=False):
         with _in_line({"x": cell}):
             pieces.append(powers(low, high, row))
-    return Decoded("breaks and coefficients", pieces=pieces)
+    return TablePoints.of_pieces(pieces, "breaks and coefficients")

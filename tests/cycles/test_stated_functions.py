@@ -1,0 +1,169 @@
+"""Tables that state what runs between their points: read as these functions, from two points on."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optlaws import InputError, MotionLaw, catalogue, read_cycle_table, read_law
+from tests.exports.samples import press
+
+QUINTIC = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
+
+
+def movers(prefix: str = "MC_MotionFunctionType.") -> str:
+    """The second of two movers on a track of 1,500 mm: 60 mm behind in curves, 100 mm on straights, blends of 100 mm.
+
+    The layout of a public writer of Structured Text, qualified enumerations and numbers by a variable; the programme is
+    the first example of its collection for XTS (9 points, endless).
+    """
+    gaps = [(0, 60), (100, 100), (250, 100), (350, 60), (750, 60), (850, 100), (1000, 100), (1100, 60), (1500, 60)]
+    lines = ["\t// Clothoid oval cam, 9 points, generated from cam-table.json.", "\t// Run it twice for a full lap."]
+    for i, (master, gap) in enumerate(gaps):
+        kind = "POLYNOM1" if i % 2 or i == len(gaps) - 1 else "POLYNOM5_MM"
+        cell = "\t\t\t_Camming.camPoints[point]."
+        lines += [
+            f"\tpoint\t:= {i + 1};",
+            f"{cell}MasterPos\t:= {master:.4f};",
+            f"{cell}SlavePos\t:= {master - gap:.4f};",
+            f"{cell}PointIndex\t:= point;",
+            f"{cell}FunctionType\t:= {prefix}MOTIONFUNCTYPE_{kind};",
+            f"{cell}PointType\t:= MC_MotionPointType.MOTIONPOINTTYPE_{'MOTION' if i else 'ACTIVATION'};",
+            f"{cell}RelIndexNextPoint\t:= {int(i < len(gaps) - 1)};",
+            f"{cell}SlaveVelo\t:= 1.0000000;",
+            f"{cell}SlaveAcc\t:= 0.000000000;",
+            f"{cell}SlaveJerk\t:= 0.00;",
+        ]
+    return "\n".join(
+        [*lines, "\t_Camming.camRef.NoOfRows\t:= point;", "\t_Camming.camTableSelect( Periodic := TRUE );"]
+    )
+
+
+@pytest.mark.parametrize("prefix", ["MC_MotionFunctionType.", "MC_MotionFunctionType#", ""])
+def test_two_movers_are_lines_and_polynomials_over_a_track(prefix: str, tmp_path: Path) -> None:
+    file = tmp_path / "movers.st"
+    file.write_text(movers(prefix))
+    table = read_cycle_table(file, unit="mm", master="mm", turn="1500 mm", advance="1500 mm")
+    assert [(part.stop, part.law if isinstance(part.law, str) else "") for part in table.stretches] == [
+        (100.0, ""), (250.0, "constant velocity"), (350.0, ""), (750.0, "constant velocity"),
+        (850.0, ""), (1000.0, "constant velocity"), (1100.0, ""), (1500.0, "constant velocity"),
+    ]  # fmt: skip
+    peak = 40e-3 * 10 / np.sqrt(3) / (100 / 300) ** 2
+    assert peak == pytest.approx(2.0785, abs=5e-5)
+    cycle = table.cycle(speed="300 mm/s")
+    assert cycle.peak(2) == pytest.approx(peak, rel=1e-12)
+    assert [cycle.duration, float(cycle(0.0, 1))] == pytest.approx([5.0, 0.3])
+    assert list(table.peaks[1]) == pytest.approx([peak / 90.0] * 2)
+    assert "9 points" in f"{table.layout}, {len(table.places)} points"
+    with pytest.raises(
+        InputError, match="what runs from the last point, at 1500, to the end of the turn is not stated"
+    ):
+        read_cycle_table(file, unit="mm", master="mm", turn="1600 mm")
+    part = read_cycle_table(file, unit="mm", master="mm", rows=3)
+    assert [each.stop for each in part.stretches] == [100.0, 250.0]
+
+
+#: as the manual of the ISG kernel prints it (kernel-html en-GB/179241611)
+ENDLESS = """Tablename = EndlessNegative # Table name
+Table-ID = 422 # Table-ID
+Tabletype = 7 # Table type
+Function type = 5 # Interpolation type
+Lines = 6 # Number of lines
+Begintable # Beginning of table
+15000 0 # MasterPos[0] SlavePos[0]
+450000 3400000 # MasterPos[1] SlavePos[1]
+900000 2400000 # MasterPos[2] SlavePos[2]
+1350000 2000000 # MasterPos[3] SlavePos[3]
+2700000 1300000 # MasterPos[4] SlavePos[4]
+3400000 300000 # MasterPos[5] SlavePos[5]
+EndTable # End of table
+"""
+#: and that of TwinCAT CNC (infosys.beckhoff.com, 15306140811)
+SMALLEST = """Tablename = Smallest_Table # Table name
+Table-ID = 404 # Table ID
+Tabletype = 7 # Table type, 7 = 2-column table, SGN32-Format
+Functiontype = 4 # Type of interp., 4 = LINE-POLY5,5 = POLY5-LINE
+Lines = 2 # Number of lines
+Begintable # Begin of table
+100000 0
+1500000 3400000
+EndTable
+"""
+
+
+def test_lines_and_polynomials_of_the_isg_kernel_alternate_over_the_seam(tmp_path: Path) -> None:
+    file = tmp_path / "endless.txt"
+    file.write_text(ENDLESS)
+    table = read_cycle_table(file, unit="deg")
+    assert (table.layout, len(table.places)) == ("ISG and TwinCAT CNC", 7)
+    assert (table.stretches[0].start, table.stretches[-1].stop) == (1.5, 361.5)
+    lines = [part for part in table.stretches if part.law == "constant velocity"]
+    assert [(part.start, part.stop, part.low, part.high) for part in lines] == [
+        (1.5, 45.0, 0.0, 340.0), (90.0, 135.0, 240.0, 200.0), (270.0, 340.0, 130.0, 30.0),
+    ]  # fmt: skip
+    cycle = table.cycle(speed="60 rpm")
+    slopes = {1.5: 340 / 43.5, 45.0: 340 / 43.5, 90.0: -40 / 45, 135.0: -40 / 45, 270.0: -10 / 7, 340.0: -10 / 7}
+    for place, slope in slopes.items():
+        for side in (-1e-9, 1e-9):  # beside the joint
+            assert cycle.at_angle(np.array([(place - 1.5 + side) % 360.0]), 1)[0] == pytest.approx(2 * np.pi * slope)
+            assert abs(cycle.at_angle(np.array([(place - 1.5 + side) % 360.0]), 2)[0]) < 1e-3
+    file.write_text(ENDLESS.replace("3400000 300000 # MasterPos[5] SlavePos[5]\n", "").replace("= 6", "= 5"))
+    with pytest.raises(InputError, match="alternate over an even number of points, and the table has 5"):
+        read_cycle_table(file)
+    file.write_text(SMALLEST)
+    table = read_cycle_table(file, unit="deg")
+    assert len(table.places) == 3
+    assert (table.stretches[-1].law, table.stretches[-1].start) == ("constant velocity", 150.0)
+
+
+def test_a_polynomial_beside_a_line_takes_its_slope(tmp_path: Path) -> None:
+    """Points of MC3 whose velocities are left to the controller, and of RTmotion without any."""
+    rows = [("Polynomial5", 0, 0), ("Linear", 90, 30), ("Polynomial5", 180, 60), ("Linear", 270, 0), ("Linear", 360, 0)]
+    point = "(FunctionType := E_Type#{}, MasterPosition := {}, SlavePosition := {}, SlaveVelocity := #Ignore, "
+    point += "SlaveAcceleration := #Ignore, SlaveJerk := #Ignore)"
+    mc3 = "cam : ARRAY[0..4] OF MotionFunctionPoint := [\n" + ",\n".join(point.format(*row) for row in rows) + "];"
+    row = "{{ {1}, {2}, NAN, NAN, {0} }}"
+    rtmotion = "static McCamXYVA cam_table[5] = {\n" + ",\n".join(row.format(*each) for each in rows) + "};"
+    for text, unknown in (
+        (mc3, "#Ignore"),
+        (rtmotion.replace("Polynomial5", "polyFive").replace("Linear", "line"), "NAN"),
+    ):
+        file = tmp_path / "cam.st"
+        file.write_text(text)
+        with pytest.raises(InputError, match=r"cam\.st: line 2: [Pp]oly.* needs the position and 2 derivatives"):
+            read_cycle_table(file)
+        file.write_text(text.replace(unknown, "0.0", 3 if unknown == "#Ignore" else 2))
+        stretches = read_cycle_table(file).stretches
+        assert [part.kind for part in stretches] == ["rise", "rise", "rise", "return", "dwell"]
+        assert [stretches[i].stop for i in (0, 1, 3, 4)] == [90.0, 180.0, 270.0, 360.0]
+        first, third, last = (stretches[i].law for i in (0, 2, 3))
+        assert isinstance(first, MotionLaw)
+        assert isinstance(third, MotionLaw)
+        assert isinstance(last, MotionLaw)
+        assert [first.b(0.0), first.b(1.0), last.b(1.0), first.c(1.0)] == pytest.approx([0.0, 1.0, 0.0, 0.0], abs=1e-9)
+        assert third.b(0.0) * stretches[2].stroke / (stretches[2].stop - 180.0) == pytest.approx(1.0 / 3.0)
+
+
+@pytest.mark.parametrize("name", ["codesys-xyva", "twincat-nc2", "siemens-points", "csv", "iec-st"])
+def test_functions_of_our_exports_come_back_as_the_cycle_they_were(name: str, tmp_path: Path) -> None:
+    options: dict[str, Any] = {"interpolation": "quintic", "points": 41} if name == "csv" else {}
+    made = press().export(name, master="360 deg", unit="mm", **options)
+    file = tmp_path / f"cam{made.format.extension}"
+    file.write_text(made.text)
+    table = read_cycle_table(file)
+    assert [(part.kind, part.law) for part in table.stretches] == [
+        ("rise", "modified sine"), ("dwell", None), ("return", "modified sine"), ("dwell", None),
+    ]  # fmt: skip
+    assert [part.stop for part in table.stretches] == pytest.approx([120.0, 210.0, 310.0, 360.0], abs=1e-9)
+
+
+def test_the_law_of_a_controller_is_that_which_runs(tmp_path: Path) -> None:
+    file = tmp_path / "rise.txt"
+    file.write_text("(MasterPos := 0.0, SlavePos := 5.0, SlaveVelo := 0.0, SlaveAcc := 0.0, SlaveJerk := 0.0, "
+                    "FunctionType := 15),\n(MasterPos := 90.0, SlavePos := 25.0, SlaveVelo := 0.0, SlaveAcc := 0.0, "
+                    "SlaveJerk := 0.0, FunctionType := 15)")  # fmt: skip
+    law = read_law(file)
+    k = np.linspace(0.0, 1.0, 11)
+    assert law(k) == pytest.approx(QUINTIC(k), abs=1e-14)
+    assert law.constants.C.value == pytest.approx(catalogue["3-4-5 polynomial"].law.constants.C.value)
