@@ -13,7 +13,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from optlaws.cycles.old_tables.fitting import CurveFit, End, fits_of
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
 from optlaws.cycles.old_tables.samples import Samples
-from optlaws.cycles.old_tables.standard import Chain, chain_of, criterion
+from optlaws.cycles.old_tables.standard import Chain, Outline, criterion
 from optlaws.numbers import Array
 
 #: standard deviations by which rows are off a motion at most
@@ -373,34 +373,33 @@ class _Region:
 
     def _explains(self, chain: Chain, fit: CurveFit) -> bool:
         """Whether rows are as near standard laws as splines make likely, by the test of Fisher or the simpler model."""
-        from scipy.stats import f
+        from scipy.special import fdtrc
 
         rows = len(self.x)
         left, best = max(rows - chain.free, 1), max(rows - fit.free, 1)
         more = fit.free - chain.free
         if more <= 0:
             return criterion(chain.squares, chain.free, rows) <= criterion(fit.squares, fit.free, rows)
-        ratio = ((chain.squares - fit.squares) / more) / max(fit.squares / best, 1e-300)
-        return bool(f.sf(ratio, more, best) > _UNLIKELY) or chain.squares / left <= 1.0
+        ratio = max(chain.squares - fit.squares, 0.0) / more / max(fit.squares / best, 1e-300)
+        return bool(fdtrc(more, best, ratio) > _UNLIKELY) or chain.squares / left <= 1.0
 
     def _chains(self, places: Sequence[float]) -> list[Chain]:
         """The nearest standard laws between the turning points of the region, and those that are about as near."""
         if any(end.slope for end in self.ends) or len(places) - 1 > 4 or len(self.x) < 2 * len(places) + 2:
             return []
-        heights = np.interp(places, self.x, self.y)
-        known = [False] * len(places)
+        heights, known = np.interp(places, self.x, self.y), np.zeros(len(places), dtype=bool)
         for side, end in ((0, self.ends[0]), (-1, self.ends[1])):
             if end.line is not None:
                 heights[side], known[side] = end.line[1], True
         if not np.all(np.abs(np.diff(heights)) > 0.0):
             return []
         bounds = (float(self.x[0]), float(self.x[-1]))
-        rows = self.x, self.y, self.noise
-        chains = chain_of(*rows, np.array(places), heights, known, bounds)
+        outline = Outline(self.x, self.y, self.noise, np.array(places), heights, known, bounds)
+        chains = outline.chains()
         if len(places) > 2 and not self._likely(chains[0].squares):
             # a rest so short that its rows look like a crest
             long = float(np.median(np.diff(self.x))) * _FEWEST
-            resting = chain_of(*rows, np.array(places), heights, known, bounds, min(long, 0.2 * np.diff(places).min()))
+            resting = outline.chains(min(long, 0.2 * float(np.diff(places).min())))
             if resting[0].squares < chains[0].squares - _ALIKE:
                 chains = resting
         nearest = chains[0].rounded(self.x, self.y, self.noise, self.digit, bounds)

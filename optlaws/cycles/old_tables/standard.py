@@ -2,22 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import product
 from math import log
-from typing import Any
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
-from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.numbers import Array
 
-_ROUGH_FIT = 1e-4  # of the last step of a fit: enough where laws are only ranked by how near they come
-_CLOSE_FIT = 1e-12  # the same where the ends of moves are to have all digits
-#: rows by which laws are ranked, and how many of the best are compared at all rows, of a single move and of several
+#: steps of a fit at most, where laws are ranked and where the ends of moves are to have all digits
+_ROUGH_STEPS, _CLOSE_STEPS = 8, 40
+#: of the sum of squares: steps that lower it by less are the last ones
+_LAST_STEP = 1e-12
+#: of the diagonal of the normal equations: what a fit begins with, and the most that leaves a step of any use
+_DAMPING, _MOST_DAMPING = 1e-3, 1e9
+#: rows by which laws are ranked, and how many of the best are compared, of a single move and of several
 _RANKED_BY, _COMPARED, _COMBINED = 60, 4, 3
+#: rows by which chains are compared, and how many of the best of these are fitted to all rows
+_COMPARED_BY, _FITTED = 240, 6
+#: of the length of a chain: its moves are longer
+_APART = 1e-9
+#: even places between which laws are interpolated where they are compared
+_INTERVALS = 2048
 #: moves of a chain of which every combination of the best laws is tried
 _MOST_COMBINED = 3
 #: steps to which places are rounded where the rows allow it, in parts of a turn
@@ -112,45 +123,154 @@ def _positions(names: Sequence[str], places: Array, heights: Array, x: Array) ->
     return y
 
 
-def chain_of(
-    x: Array,
-    y: Array,
-    noise: Array,
-    places: Array,
-    heights: Array,
-    known: Sequence[bool],
-    bounds: tuple[float, float],
-    resting: float = 0.0,
-) -> list[Chain]:
-    """Chains of standard laws near rows, the nearest first.
+#: positions and velocities of a law, by its name, at places from 0 to 1
+_Laws: TypeAlias = Callable[[str, Array], tuple[Array, Array]]
 
-    Parameters
+
+def _exact(name: str, u: Array) -> tuple[Array, Array]:
+    law = catalogue[name].law
+    return np.asarray(law(u)), np.asarray(law(u, 1))
+
+
+@cache
+def _sampled(name: str) -> tuple[Array, Array]:
+    return _exact(name, np.linspace(0.0, 1.0, _INTERVALS + 1))
+
+
+def _interpolated(name: str, u: Array) -> tuple[Array, Array]:
+    """Positions and velocities by cubics between even places, which cost little."""
+    a, b = _sampled(name)
+    at = np.minimum((u * _INTERVALS).astype(np.intp), _INTERVALS - 1)
+    t = u * _INTERVALS - at
+    rise, before, after = a[at + 1] - a[at], b[at] / _INTERVALS, b[at + 1] / _INTERVALS
+    second, third = 3.0 * rise - 2.0 * before - after, before + after - 2.0 * rise
+    slope = before + t * (2.0 * second + 3.0 * t * third)
+    return a[at] + t * (before + t * (second + t * third)), slope * _INTERVALS
+
+
+@dataclass(frozen=True, eq=False)
+class Outline:
+    """Rows with about where their moves meet.
+
+    Attributes
     ----------
     x, y, noise
         Rows, arrays of shape (n,).
     places, heights
-        About where the moves meet.
+        About where the moves meet, arrays of shape (m,).
     known
         Which heights are known, as those of rests are.
     bounds
-        Between which places the chain is.
-    resting
-        About how long the motion rests where it turns.
+        Between which places the moves are.
     """
-    if resting:
-        inner = np.repeat(np.arange(1, len(places) - 1), 2)
-        each = [0, *inner.tolist(), len(places) - 1]
-        places = places[each] + np.array([0.0, *np.tile([-0.5, 0.5], len(inner) // 2), 0.0]) * resting
-        heights, known = heights[each], [known[i] for i in each]
-    moves = range(0, len(places) - 1, 2 if resting else 1)
-    ranked = [_ranked(x, y, (places[i], places[i + 1]), (heights[i], heights[i + 1])) for i in moves]
-    rests = [""] * (len(ranked) - 1) if resting else []
-    compared = _COMPARED if len(ranked) == 1 else _COMBINED if len(ranked) <= _MOST_COMBINED else 1
-    best = [names[:compared] for names in ranked]
-    chains = [
-        _fitted(tuple(_woven(names, rests)), x, y, noise, places, heights, known, bounds) for names in product(*best)
-    ]
-    return sorted(chains, key=lambda chain: chain.squares)
+
+    x: Array
+    y: Array
+    noise: Array
+    places: Array
+    heights: Array
+    known: NDArray[np.bool_]
+    bounds: tuple[float, float]
+
+    def chains(self, resting: float = 0.0) -> list[Chain]:
+        """Chains of standard laws near the rows, the nearest first; they rest about so long where they turn."""
+        moves = len(self.places) - 1
+        compared = _COMPARED if moves == 1 else _COMBINED if moves <= _MOST_COMBINED else 1
+        best = [self._ranked(move)[:compared] for move in range(moves)]
+        outline = self._resting(resting) if resting else self
+        chains = [tuple(_woven(names, [""] * (moves - 1) if resting else [])) for names in product(*best)]
+        if len(chains) > _FITTED:
+            some = outline.of_rows(slice(None, None, max(1, len(self.x) // _COMPARED_BY)))
+            chains.sort(key=lambda names: some.fitted(names, _interpolated, _CLOSE_STEPS).squares)
+        return sorted((outline.exactly(names) for names in chains[:_FITTED]), key=lambda chain: chain.squares)
+
+    def of_rows(self, rows: slice | NDArray[np.intp]) -> Outline:
+        """The outline with some of its rows."""
+        return replace(self, x=self.x[rows], y=self.y[rows], noise=self.noise[rows])
+
+    def exactly(self, names: tuple[str, ...]) -> Chain:
+        """The chain of given laws that is nearest the rows, of the laws themselves."""
+        rough = self.fitted(names, _interpolated, _CLOSE_STEPS)
+        return replace(self, places=rough.places, heights=rough.heights).fitted(names, _exact, _CLOSE_STEPS)
+
+    def _resting(self, length: float) -> Outline:
+        """The outline with rests of a length where the moves meet."""
+        inner = np.repeat(np.arange(1, len(self.places) - 1), 2)
+        each = np.array([0, *inner, len(self.places) - 1])
+        apart = np.array([0.0, *np.tile([-0.5, 0.5], len(inner) // 2), 0.0]) * length
+        return replace(self, places=self.places[each] + apart, heights=self.heights[each], known=self.known[each])
+
+    def _ranked(self, move: int) -> list[str]:
+        """The names of laws by how near they come to the rows of a move, of which the ends are about known."""
+        ends = self.places[move : move + 2]
+        inside = np.flatnonzero((self.x >= ends[0]) & (self.x <= ends[1]))
+        some = self.of_rows(inside[:: max(1, len(inside) // _RANKED_BY)])
+        heights = self.heights[move : move + 2]
+        single = replace(some, places=ends, heights=heights, known=np.ones(2, dtype=bool))
+        wide = 0.4 * float(np.ptp(ends))
+        single = replace(single, bounds=(ends[0] - wide, ends[1] + wide))
+        costs = [(single.fitted((name,), _interpolated, _ROUGH_STEPS).squares, name) for name in catalogue]
+        return [name for _, name in sorted(costs)]
+
+    def fitted(self, names: tuple[str, ...], laws: _Laws, steps: int) -> Chain:
+        """The chain of given laws whose places, and heights that are not known, are nearest the rows."""
+        count = len(self.places)
+        source = np.arange(count)  # a rest ends at the height of its start
+        for i, name in enumerate(names):
+            source[i + 1] = source[i + 1] if name else source[i]
+        free = [i for i in range(count) if source[i] == i and not self.known[i]]
+        spread = np.zeros((2 * count, count + len(free)))
+        spread[:count, :count] = np.eye(count)
+        for column, i in enumerate(free):
+            spread[count + np.flatnonzero(source == i), count + column] = 1.0
+        ends = np.concatenate([np.clip(self.places, *self.bounds), self.heights[source]])
+        left, matrix = self._missed(names, laws, ends)
+        squares, damping = float(left @ left), _DAMPING
+        matrix = matrix @ spread
+        for _ in range(steps):
+            normal, side = matrix.T @ matrix, matrix.T @ left
+            scaled = normal + np.diag(damping * np.diag(normal) + np.finfo(np.float64).tiny)
+            step = np.linalg.lstsq(scaled, -side, rcond=None)[0]
+            tried = ends + spread @ step
+            tried[:count] = np.clip(tried[:count], *self.bounds)
+            if np.all(np.diff(tried[:count]) > _APART * np.ptp(self.places)):
+                new_left, slopes = self._missed(names, laws, tried)
+                new = float(new_left @ new_left)
+            else:
+                new = np.inf
+            if new < squares:
+                last = squares - new <= _LAST_STEP * squares
+                ends, left, matrix, squares, damping = tried, new_left, slopes @ spread, new, 0.1 * damping
+                if last:
+                    break
+            elif damping > _MOST_DAMPING or -side @ step <= _LAST_STEP * squares:
+                break
+            else:
+                damping *= 10.0
+        variance = max(squares / max(len(left) - len(step), 1), 1.0)
+        deviations = np.sqrt(variance * np.maximum(np.diag(spread @ np.linalg.pinv(matrix.T @ matrix) @ spread.T), 0.0))
+        return Chain(names, ends[:count], ends[count:], squares, count + len(free), deviations)
+
+    def _missed(self, names: Sequence[str], laws: _Laws, ends: Array) -> tuple[Array, Array]:
+        """How far a chain misses the rows, in deviations of their noise, and its derivatives by places and heights."""
+        count = len(ends) // 2
+        places, heights = ends[:count], ends[count:]
+        edges = np.searchsorted(self.x, places, side="right")
+        y, slopes = np.empty(len(self.x)), np.zeros((len(self.x), 2 * count))
+        for rows, i in ((slice(None, edges[0]), 0), (slice(edges[-1], None), count - 1)):
+            y[rows], slopes[rows, count + i] = heights[i], 1.0
+        for i, name in enumerate(names):
+            rows = slice(edges[i], edges[i + 1])
+            if not name:
+                y[rows], slopes[rows, count + i] = heights[i], 1.0
+                continue
+            length, stroke = places[i + 1] - places[i], heights[i + 1] - heights[i]
+            u = np.minimum((self.x[rows] - places[i]) / length, 1.0)
+            a, b = laws(name, u)
+            y[rows] = heights[i] + stroke * a
+            slopes[rows, i], slopes[rows, i + 1] = -stroke / length * b * (1.0 - u), -stroke / length * b * u
+            slopes[rows, count + i], slopes[rows, count + i + 1] = 1.0 - a, a
+        return (y - self.y) / self.noise, slopes / self.noise[:, None]
 
 
 def _woven(names: Sequence[str], rests: Sequence[str]) -> Iterator[str]:
@@ -159,77 +279,6 @@ def _woven(names: Sequence[str], rests: Sequence[str]) -> Iterator[str]:
         yield name
         if i < len(rests):
             yield rests[i]
-
-
-def _ranked(x: Array, y: Array, ends: tuple[float, float], levels: tuple[float, float]) -> list[str]:
-    """The names of laws by how near they come to the rows of a move, of which start and stop are about known."""
-    from scipy.optimize import least_squares
-
-    inside = np.flatnonzero((x >= ends[0]) & (x <= ends[1]))
-    some = inside[:: max(1, len(inside) // _RANKED_BY)]
-    k, a = x[some], (y[some] - levels[0]) / (levels[1] - levels[0])
-    length = ends[1] - ends[0]
-    costs = []
-    for name in catalogue:
-        law = catalogue[name].law
-        solution = least_squares(
-            lambda at, law=law: _shape(law, k, ends[0] + length * at[0], ends[1] + length * at[1]) - a,  # type: ignore[misc]  # a default binds the law of the loop
-            [0.0, 0.0],
-            xtol=_ROUGH_FIT,
-            ftol=_ROUGH_FIT,
-            gtol=_ROUGH_FIT,
-            bounds=([-0.4, -0.4], [0.4, 0.4]),
-            max_nfev=12,
-        )
-        costs.append((float(solution.cost), name))
-    return [name for _, name in sorted(costs)]
-
-
-def _shape(law: MotionLaw, x: Array, start: float, stop: float) -> Array:
-    return np.asarray(law(np.clip((x - start) / (stop - start), 0.0, 1.0)))
-
-
-def _fitted(
-    names: tuple[str, ...],
-    x: Array,
-    y: Array,
-    noise: Array,
-    places: Array,
-    heights: Array,
-    known: Sequence[bool],
-    bounds: tuple[float, float],
-) -> Chain:
-    """The chain of given laws whose places, and heights that are not known, are nearest the rows."""
-    from scipy.optimize import least_squares
-
-    count, free = len(places), ~np.array(known)
-    scale = np.ptp(places) / (count - 1)
-    size = float(np.ptp(heights))
-
-    def parts(unknown: Array) -> tuple[Array, Array]:
-        at = np.sort(np.clip(places + scale * unknown[:count], *bounds))
-        at = at + 1e-9 * scale * np.arange(count)
-        levels = np.array(heights, dtype=np.float64)
-        levels[free] += size * unknown[count:]
-        for i, name in enumerate(names):
-            if not name:
-                levels[i + 1] = levels[i]
-        return at, levels
-
-    def missed(unknown: Array) -> Array:
-        return np.asarray((_positions(names, *parts(unknown), x) - y) / noise)
-
-    stops: dict[str, Any] = {"xtol": _CLOSE_FIT, "ftol": _CLOSE_FIT, "gtol": _CLOSE_FIT, "max_nfev": 40}
-    solution = least_squares(missed, np.zeros(count + int(free.sum())), **stops)
-    at, levels = parts(solution.x)
-    squares = float(2.0 * solution.cost)
-    slopes = np.asarray(solution.jac, dtype=np.float64)
-    normal = np.linalg.pinv(slopes.T @ slopes)
-    spread = np.sqrt(np.maximum(np.diag(normal), 0.0) * max(squares / max(len(x) - len(solution.x), 1), 1.0))
-    deviations = np.zeros(2 * count)
-    deviations[:count] = scale * spread[:count]
-    deviations[count:][free] = size * spread[count:]
-    return Chain(names, at, levels, squares, len(solution.x) - names.count(""), deviations)
 
 
 def criterion(squares: float, free: int, rows: int) -> float:
