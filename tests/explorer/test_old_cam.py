@@ -161,3 +161,27 @@ def test_a_dropped_table_is_shown_and_bettered_within_a_dragged_band(page: Page,
     page.get_by_role("button", name="Export").click()
     bettered(page)
     assert "as run" in page.locator("dialog[open]").inner_text()
+
+
+def test_the_frame_of_a_table_is_said_in_fields(page: Page, served: Server) -> None:
+    """The example once more in a turn of 720 deg, then its first 41 rows, of a rise, as one lobe of three."""
+    go(page, f"http://{served.host}/")
+    page.get_by_role("tab", name="Old cam").click()
+    fields = {
+        name: page.get_by_role("textbox", name=name, exact=True) for name in ("turn", "advance", "rows that count")
+    }
+    lobes = page.get_by_role("textbox", name="lobes of a turn")
+    lobes.fill("2")
+    page.locator("#old-trust", has_text="more than a turn of 180: give a longer turn").wait_for(timeout=30_000)
+    fields["turn"].fill("720 deg")
+    page.locator("#old-trust", has_text="4 moves").wait_for(timeout=30_000)
+    fields["turn"].fill("360 deg")
+    fields["rows that count"].fill("41")
+    fields["advance"].fill("105 mm")
+    lobes.fill("3")
+    page.locator("#old-trust", has_text="3 moves").wait_for(timeout=30_000)
+    bettered(page)
+    assert page.locator("#old-moves").inner_text().count("modified sine") == 3
+    study = old_cam_view.example() | {"turn": "360 deg", "rows": 41, "advance": "105 mm", "lobes": 3}
+    rows = served.ask("old", {"study": study})["tables"][0]["rows"]
+    assert [row[:3] for row in rows] == [["rise", 120.0 * i, 120.0 * (i + 1)] for i in range(3)]

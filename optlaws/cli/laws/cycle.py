@@ -36,7 +36,7 @@ _SEGMENTS = "the cycle, whose segments are the stretches of the table"
     "PNG or SVG.",
     how=options(
         "optlaws.cycles.old_tables.table:read_cycle_table",
-        *("unit", "master", "cam", "turn", "advance", "rows", "tolerance"),
+        *("unit", "master", "cam", "turn", "advance", "rows", "lobes", "tolerance"),
         group=_GROUP,
         columns=COLUMNS,
     ),

@@ -8,15 +8,19 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.motion.quantities import either, quantity
-from optlaws.numbers import Array, Quantity
+from optlaws.numbers import Array, Quantity, whole
 
 _TURN = 360.0  # deg of the master of a cycle in a turn
+_TURNS = {"deg": _TURN, "rad": 2.0 * np.pi, "turn": 1.0, "rev": 1.0}
 _NEAR = 1e-3  # of the positions: by how much more the last one may be off the first one than steps beside it are
+_MOST_LOBES = 100
 _WHOLE = 1e-6  # of a turn: by how much the last row may be off its end, as digits leave it
 
 
-def in_order(places: Array, heights: Array) -> tuple[Array, Array]:
+def in_order(places: Array, heights: Array, turn: float | None = None) -> tuple[Array, Array]:
     """Rows with increasing places: reversed ones are turned round, and of equal ones one is left.
+
+    Rows that begin anywhere in a turn, and go on at its beginning, are those of a turn from the first one on.
 
     Raises
     ------
@@ -27,10 +31,19 @@ def in_order(places: Array, heights: Array) -> tuple[Array, Array]:
     --------
     >>> in_order(np.array([3.0, 2.0, 2.0, 1.0]), np.array([0.0, 1.0, 1.0, 0.0]))
     (array([1., 2., 3.]), array([0., 1., 0.]))
+    >>> in_order(np.array([270.0, 350.0, 0.0, 90.0]), np.arange(4.0), 360.0)[0].tolist()
+    [270.0, 350.0, 360.0, 450.0]
     """
     if np.all(np.diff(places) <= 0.0):
         places, heights = places[::-1], heights[::-1]
     steps = np.diff(places)
+    falls = np.flatnonzero(steps < 0.0)
+    if turn is not None and len(falls) == 1 and falls[0] < len(steps) - 1:
+        following = places[falls[0] + 1 :] + turn
+        length = following[-1] - places[0]
+        if following[0] > places[falls[0]] and np.all(np.diff(following) > 0.0) and length <= turn * (1.0 + _WHOLE):
+            places = np.concatenate([places[: falls[0] + 1], following])
+            steps = np.diff(places)
     if np.any(steps < 0.0):
         row = int(np.argmax(steps < 0.0))
         raise InputError(
@@ -88,6 +101,26 @@ def closed(
             "rows how many of them count"
         )
     return np.append(places, places[0] + turn), np.append(heights, heights[0] + (advance or 0.0))
+
+
+def whole_turn(turn: float | None, master: str) -> float | None:
+    """The length of a turn: as given, or 360 deg in the units of an angle; None where the rows alone say it.
+
+    >>> whole_turn(None, "deg"), whole_turn(720.0, "deg"), whole_turn(None, "mm")
+    (360.0, 720.0, None)
+    """
+    return turn or _TURNS.get(master)
+
+
+def of_lobe(lobes: int, turn: float | None, advance: float | None, master: str) -> tuple[float | None, float | None]:
+    """The length of one of the lobes of a turn, and its share of the advance.
+
+    >>> of_lobe(4, None, 40.0, "deg"), of_lobe(1, None, None, "deg")
+    ((90.0, 10.0), (None, None))
+    """
+    count = whole(lobes, "lobes", 1, _MOST_LOBES)
+    of_turn = turn if count == 1 else whole_turn(turn, master)
+    return (None if of_turn is None else of_turn / count), (None if advance is None else advance / count)
 
 
 def in_unit(text: Quantity | None, unit: str, dimensions: Sequence[str], name: str) -> float | None:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.old_tables.frame import closed, in_order, in_unit, period_of
+from optlaws.cycles.old_tables.frame import closed, in_order, in_unit, of_lobe, period_of, whole_turn
 from optlaws.cycles.old_tables.motion import NOISE_ROOM, motion_of
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.reading import CamPoints, TableUnits, points_in
@@ -287,6 +287,10 @@ class OldTable:
         if off > self.room * (1.0 + AGREEMENT):
             away, at = Amount(off, self.unit, 3), Amount(place, self.master)
             remarks.append(sentence("but {} off the point at {}", away, at))
+        if self.stretches[0].start:
+            remarks.append(
+                sentence("the cycle begins at {} of its master", Amount(self.stretches[0].start, self.master))
+            )
         if self.peaks:
             remarks.append(sentence("greatest {}", joined(", ", map(self.peak_in_words, (1, 2, 3)))))
         if self.outliers:
@@ -331,6 +335,7 @@ def read_cycle_table(
     turn: Quantity | None = None,
     advance: Quantity | None = None,
     rows: int | None = None,
+    lobes: int = 1,
 ) -> OldTable:
     r"""A table of a whole cycle from a file, divided into dwells, rises and returns.
 
@@ -360,6 +365,8 @@ def read_cycle_table(
         What the position advances by in a turn, of an endless motion whose last row is missing.
     rows
         How many rows count, from the first one on, where spare ones follow.
+    lobes
+        How often the rows follow each other in a turn, where they are one lobe of several; each advances by as much.
 
     Raises
     ------
@@ -382,7 +389,7 @@ def read_cycle_table(
     path = Path(file)
     content = reading.text(path, LARGEST_TABLE, legacy=True)
     points = points_in(content, path, columns, unit=unit, master=master, cam=cam)
-    return table_of(points, path, tolerance, turn=turn, advance=advance, rows=rows)
+    return table_of(points, path, tolerance, turn=turn, advance=advance, rows=rows, lobes=lobes)
 
 
 def table_of(
@@ -393,6 +400,7 @@ def table_of(
     turn: Quantity | None = None,
     advance: Quantity | None = None,
     rows: int | None = None,
+    lobes: int = 1,
 ) -> OldTable:
     """The table of points with units, divided as by `read_cycle_table`; errors call the table `path`."""
     units, fewest = points.units, 2 if points.pieces else FEWEST_POINTS
@@ -403,11 +411,12 @@ def table_of(
         length = in_unit(turn, units.master, ("angle", "time", "length"), "turn")
         step = in_unit(advance, units.slave, ("length", "angle"), "advance")
         if points.pieces:
-            table = _of_pieces(points.pieces[: len(places) - 1], places, heights, units, length, step, tolerance)
+            pieces = points.pieces[: len(places) - 1]
+            table = _of_pieces(pieces, places, heights, units, length, step, tolerance, lobes)
         else:
             table = split_table(
-                places, heights, turn=length, advance=step, tolerance=tolerance, unit=units.slave, master=units.master,
-                digit=points.digit,
+                places, heights, turn=length, advance=step, lobes=lobes, tolerance=tolerance, unit=units.slave,
+                master=units.master, digit=points.digit,
             )  # fmt: skip
     return replace(table, layout=points.layout, rate=units.rate)
 
@@ -420,9 +429,10 @@ def _of_pieces(
     turn: float | None,
     advance: float | None,
     tolerance: float | None,
+    lobes: int,
 ) -> OldTable:
     """The table of functions that are stated between points."""
-    if len(closed(places, heights, turn, advance)[0]) > len(places):
+    if len(closed(places, heights, *of_lobe(lobes, turn, advance, units.master))[0]) > len(places):
         raise InputError(
             f"what runs from the last point, at {places[-1]:.9g}, to the end of the turn is not stated: add the point "
             "of its end, or leave turn out"
@@ -430,7 +440,32 @@ def _of_pieces(
     room = max(not_negative(tolerance or 0.0, "tolerance"), _STANDARD_LAW_ROOM * float(np.ptp(heights)))
     whole = turn is not None or either(f"1 {units.master}", ("angle", "time", "length"), "master")[0] == "length"
     stretches, seam = stretches_of_pieces(pieces, room), seam_of(heights, room)
-    return OldTable(stretches, room, 0.0, seam, units.slave, units.master, places, heights, whole=whole)
+    table = OldTable(stretches, room, 0.0, seam, units.slave, units.master, places, heights, whole=whole)
+    return _repeated(table, lobes)
+
+
+def _repeated(table: OldTable, count: int) -> OldTable:
+    """A table whose rows follow each other so many times."""
+    length, rise = float(np.ptp(table.places)), table.stretches[-1].high - table.stretches[0].low if table.seam else 0.0
+    stretches = list(table.stretches)
+    for i in range(1, count):
+        for part in table.stretches:
+            shifted = replace(
+                part, start=part.start + i * length, stop=part.stop + i * length, low=part.low + i * rise,
+                high=part.high + i * rise,
+            )  # fmt: skip
+            before = stretches[-1]
+            if shifted.law is None and before.law is None:
+                stretches[-1] = replace(before, stop=shifted.stop)
+            else:
+                stretches.append(shifted)
+    rows, turns = len(table.places) - 1, np.arange(count)[:, None]
+    places = np.append((table.places[:-1] + turns * length).ravel(), table.places[-1] + (count - 1) * length)
+    heights = np.append((table.heights[:-1] + turns * rise).ravel(), table.heights[-1] + (count - 1) * rise)
+    outliers = tuple(i * rows + each for i in range(count) for each in table.outliers)
+    return replace(
+        table, stretches=tuple(stretches), seam=count * table.seam, places=places, heights=heights, outliers=outliers
+    )
 
 
 def split_table(
@@ -443,6 +478,7 @@ def split_table(
     digit: float = 0.0,
     turn: float | None = None,
     advance: float | None = None,
+    lobes: int = 1,
 ) -> OldTable:
     """The dwells, rises and returns of a table of a whole cycle.
 
@@ -459,6 +495,8 @@ def split_table(
     turn, advance
         The length of a turn of the master, and what the positions advance by in it, where the row of its end is missing
         or it is none of 360 deg; what the rows have unless given.
+    lobes
+        How often the points follow each other in a turn, where they are one lobe of several.
 
     Raises
     ------
@@ -488,7 +526,9 @@ def split_table(
     if not np.all(np.isfinite(places)) or not np.all(np.isfinite(heights)):
         raise InputError("the places and positions of a table must be finite numbers")
     whole = turn is not None or either(f"1 {master}", ("angle", "time", "length"), "master")[0] == "length"
-    places, heights = closed(*in_order(places, heights), turn, advance, angle=master == "deg")
+    of_one = of_lobe(lobes, turn, advance, master)
+    ordered = in_order(places, heights, whole_turn(turn, master))
+    places, heights = closed(*ordered, *of_one, angle=master == "deg" and lobes == 1)
     stroke = float(np.ptp(heights))
     if stroke == 0.0:
         raise InputError("the table never moves: all its positions are the same")
@@ -503,7 +543,8 @@ def split_table(
         raise InputError("the table never moves as far as its noise tells: its positions scatter about one level")
     if tolerance is None:
         room = max(room, NOISE_ROOM * scatter)
-    return OldTable(
+    table = OldTable(
         tuple(stretches_of(motion)), room, scatter, seam_of(heights, room), unit, master, samples.places, heights,
         whole=whole, outliers=tuple(np.flatnonzero(motion.samples.suspects).tolist()),
     )  # fmt: skip
+    return _repeated(table, lobes)

@@ -17,7 +17,7 @@ from optlaws.cycles.old_tables.report import OldTableReport
 from optlaws.cycles.old_tables.stretches import better
 from optlaws.cycles.old_tables.table import OldTable, table_of
 from optlaws.entries.declared import Declared, declared, entry
-from optlaws.entries.value_types import Number, Text
+from optlaws.entries.value_types import Number, Text, Whole
 from optlaws.errors import InputError
 from optlaws.explorer.views.cycle_view import CycleRequest
 from optlaws.explorer.views.law_view import refusing
@@ -46,6 +46,10 @@ class OldCamEntries(Declared, title="the table of an old cam"):
     cam: str | None = entry(Text(), "One of a file with several.", default=None)
     room: float | None = entry(Number(above=0.0), "How far a law may be from the points.", default=None)
     within: float | None = entry(Number(above=0.0), "How far better laws may be from the old ones.", default=None)
+    turn: str | None = entry(Text(), "How much of the master is a turn.", default=None)
+    advance: str | None = entry(Text(), "What the position advances by in a turn.", default=None)
+    rows: int | None = entry(Whole(2), "How many rows count.", default=None)
+    lobes: int = entry(Whole(1), "How often the rows follow each other in a turn.", default=1)
     speed: str | None = entry(Text(), "That of the master.", default=None)
 
 
@@ -59,7 +63,8 @@ def _table(entries: OldCamEntries) -> OldTable:
     columns = None if entries.columns is None else [name.strip() for name in entries.columns.split(",")]
     path = Path(entries.file)
     points = points_in(entries.text, path, columns, unit=entries.unit, master=entries.master, cam=entries.cam)
-    return table_of(points, path, entries.room)
+    frame = {name: getattr(entries, name) for name in ("turn", "advance", "rows", "lobes")}
+    return table_of(points, path, entries.room, **frame)
 
 
 @refusing("not read")

@@ -11,11 +11,16 @@ import { checking, showTrust, unanswered } from "../trust.js";
 import { plain, written } from "../units.js";
 
 const told = (value) => JSON.stringify(value);
+const whole = (value) => (Number.isInteger(Number(value)) && Number(value) > 0 ? Number(value) : undefined);
 const FIELDS = {
   unit: ["positions in", "what the file says, or mm"],
   master: ["master in", "what the file says, or deg"],
   columns: ["columns", "1,2 or headings"],
   cam: ["cam", "of a file with several"],
+  turn: ["turn", "what the rows have, or 720 deg"],
+  advance: ["advance", "what the rows have, or 360 deg"],
+  rows: ["rows that count", "all", whole],
+  lobes: ["lobes of a turn", "1", whole],
   speed: ["speed", "what the file says, or 200 rpm"],
 };
 const FILES = [
@@ -149,11 +154,11 @@ export class View {
 
   #build() {
     const chooser = html("input", { type: "file", "aria-label": "Table of an old cam", onchange: () => chooser.files.length && this.#take(chooser.files[0]) });
-    const fields = Object.entries(FIELDS).map(([name, [title, placeholder]]) => this.#text(name, title, placeholder));
+    const fields = Object.entries(FIELDS).map(([name, [title, placeholder, of]]) => this.#text(name, title, placeholder, of));
     this.#form.replaceChildren(
-      group("Table", html("p", {}, this.#name), chooser, html("p", { class: "hint", text: "or drop a file anywhere: columns of numbers, or what a controller has (CODESYS, TwinCAT, Siemens, an .L5X of Rockwell, …)" }), ...fields.slice(0, 4), this.#number("room", "points within", "the last digit, or the noise")),
+      group("Table", html("p", {}, this.#name), chooser, html("p", { class: "hint", text: "or drop a file anywhere: columns of numbers, or what a controller has (CODESYS, TwinCAT, Siemens, an .L5X of Rockwell, …)" }), ...fields.slice(0, -1), this.#number("room", "points within", "the last digit, or the noise")),
       this.#band,
-      group("Machine", ...fields.slice(4)),
+      group("Machine", ...fields.slice(-1)),
     );
   }
 

@@ -1,0 +1,69 @@
+"""The frame of a table: where its rows begin in a turn, one lobe of several, and rows that are no turn."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from optlaws import InputError, catalogue, read_cycle_table, split_table
+from tests.internals.cli import exit_code
+
+CYCLOIDAL = catalogue["cycloidal"].law
+DEGREES = np.arange(0.0, 360.0, 2.0)
+
+
+def lift(degrees: np.ndarray) -> np.ndarray:
+    """A rise from 60 to 180 deg and a return from 200 to 320 deg."""
+    return 20.0 * np.asarray(
+        CYCLOIDAL(np.clip((degrees - 60) / 120, 0, 1)) - CYCLOIDAL(np.clip((degrees - 200) / 120, 0, 1))
+    )
+
+
+def test_rows_that_begin_anywhere_in_a_turn_go_on_over_its_end() -> None:
+    """Rows from 340 deg on, through 0, to 338 deg: the printed angles fall once."""
+    printed = np.roll(DEGREES, -170)
+    table = split_table(printed, np.round(lift(printed), 4), digit=1e-4)
+    assert (table.places[0], table.places[-1]) == (340.0, 700.0)
+    assert [part.stop for part in table.stretches] == pytest.approx([420.0, 540.0, 560.0, 680.0, 700.0], abs=1e-6)
+    assert "the cycle begins at 340 deg of its master" in str(table)
+    cycle = table.cycle(speed="60 rpm")
+    assert 1e3 * np.asarray(cycle.at_angle((DEGREES - 340.0) % 360.0)) == pytest.approx(lift(DEGREES), abs=1e-3)
+    with pytest.raises(InputError, match=r"must increase, and 0 follows 358 \(rows 180 and 181 of its points\)"):
+        split_table([*DEGREES, *DEGREES], [*lift(DEGREES), *lift(DEGREES)])
+
+
+def test_one_lobe_of_several_is_a_turn() -> None:
+    """An eighth of a turn of a dial that advances by 45 deg in each, without the last row."""
+    x = np.arange(0.0, 45.0, 0.5)
+    table = split_table(
+        x, np.round(45 * CYCLOIDAL(np.clip((x - 5) / 30, 0, 1)), 4), digit=1e-4, unit="deg", lobes=8, advance=360.0
+    )
+    moves = [part for part in table.stretches if part.law is not None]
+    assert [part.law for part in moves] == ["cycloidal"] * 8
+    assert [part.start for part in moves] == pytest.approx([5.0 + 45.0 * i for i in range(8)])
+    assert [len(table.stretches), len(table.places), table.places[-1], table.heights[-1]] == [17, 721, 360.0, 360.0]
+    cycle = table.cycle(speed="60 rpm")
+    assert cycle.duration == pytest.approx(1.0)
+    assert cycle.peak(2) == pytest.approx(2 * np.pi * np.radians(45.0) * 12.0**2)
+    with pytest.raises(InputError, match=r"the rows go over 44.5 of the master, more than a turn of 36: give a longer"):
+        split_table(x, x, lobes=10)
+    with pytest.raises(InputError, match="lobes must be an integer"):
+        split_table(x, x, lobes=0)
+
+
+def test_lobes_of_stated_functions_and_of_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    rows = [(0.0, 0.0), (60.0, 12.0), (90.0, 12.0), (120.0, 0.0)]
+    point = "(MasterPos := {}, SlavePos := {}, SlaveVelo := 0.0, SlaveAcc := 0.0, SlaveJerk := 0.0, FunctionType := 15)"
+    file = tmp_path / "cam.st"
+    file.write_text("\n".join(point.format(*row) for row in rows))
+    table = read_cycle_table(file, lobes=3)
+    assert [(part.kind, part.stop) for part in table.stretches][3:6] == [
+        ("rise", 180.0),
+        ("dwell", 210.0),
+        ("return", 240.0),
+    ]
+    assert table.cycle(speed="60 rpm").peak(2) == pytest.approx(12e-3 * 10 / np.sqrt(3) * 12.0**2)
+    assert exit_code(["cycle", str(file), "--lobes", "3", "--speed", "60rpm"]) == 0
+    assert "return 330 360 -12 3-4-5 polynomial" in " ".join(capsys.readouterr().out.split())
+    with pytest.raises(InputError, match=r"cam\.st: the rows go over 120 of the master, more than a turn of 90"):
+        read_cycle_table(file, lobes=4)
