@@ -115,7 +115,7 @@ def read_axes(file: Path, axis: str | None, *jobs: str) -> dict[str, Cycle]:
     from optlaws.jobs import cam, cycle_entries
     from optlaws.jobs.job import problem_of_job
 
-    source, _, entries = problem_of_job(file, "cycle", *jobs)
+    source, entries = problem_of_job(file, "cycle", *jobs)
     cycles = cam.motion_of(entries, source) if entries.get("job") == "cam" else cycle_entries.read(entries, source)[1]
     if axis is not None and axis not in cycles:
         raise InputError(f"--axis: {source}: {unknown_key(axis, list(cycles), 'axis')}")

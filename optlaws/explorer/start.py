@@ -31,7 +31,7 @@ def start(given: str | None) -> dict[str, Any]:
     if given is None:
         return _law({"problem": dict(_FIRST)})
     if is_problem(given):
-        file = problem_file(Path(given))[0]
+        file = problem_file(Path(given))
         return _of_problem_file(_with_motors(reading.toml(file), file), str(file))
     if not is_file(given):
         read_law(given)

@@ -25,27 +25,23 @@ def problem_names() -> list[str]:
     return sorted(file.stem for file in packaged("problems").glob("*.toml"))
 
 
-def problem_file(given: Path) -> tuple[Path, Path | None]:
+def problem_file(given: Path) -> Path:
     """A problem file: the given one or, if it does not exist, the packaged file of this name or path.
-
-    With it the folder for its results where that is not the file's own: `results/NAME` where the user is.
 
     Examples
     --------
-    >>> file, out = problem_file(Path("optimal_table"))
-    >>> file.name, out.as_posix()
-    ('optimal_table.toml', 'results/optimal_table')
+    >>> problem_file(Path("optimal_table")).name
+    'optimal_table.toml'
     """
     if given.suffix or len(given.parts) != 1 or given.exists():
-        source = _or_packaged(given)
-        return source, None if source == given else Path("results") / given.stem
+        return _or_packaged(given)
     names = problem_names()
     if given.name not in names:
         raise InputError(
             f"{given} is no file, and {unknown_key(given.name, names, 'packaged problem')} (optlaws has "
             f"{', '.join(names)})"
         )
-    return packaged(f"problems/{given.name}.toml"), Path("results") / given.name
+    return packaged(f"problems/{given.name}.toml")
 
 
 def is_problem(text: str) -> bool:

@@ -33,11 +33,6 @@ def do(name: str, results: Results) -> None:
     import_module(f"optlaws.jobs.{name.replace(' ', '_')}").run(results)
 
 
-def folder_of(file: Path) -> Path:
-    """The folder of the results, `results/<name of the file>` beside the problem file's folder."""
-    return file.resolve().parent.parent / "results" / file.stem
-
-
 def done(file: Path) -> Results:
     """The results of the job of a problem file, not yet written."""
     if file.suffix == ".py":
@@ -70,19 +65,19 @@ def _job_of(entries: Mapping[str, Any], file: Path) -> str:
     return name
 
 
-def problem_of_job(given: Path, job: str, *others: str) -> tuple[Path, Path | None, dict[str, Any]]:
-    """A problem file of a job, which it need not name, or of others; the folder for results as `problem_file` does.
+def problem_of_job(given: Path, job: str, *others: str) -> tuple[Path, dict[str, Any]]:
+    """A problem file of a job, which it need not name, or of others, and its entries.
 
     >>> problem_of_job(Path("cam_press"), "cycle")
     Traceback (most recent call last):
     optlaws.errors.InputError: cam_press is of the job 'cam', not 'cycle': `optlaws run cam_press` does it
     """
-    file, results = problem_file(given)
+    file = problem_file(given)
     entries = reading.toml(file)
     named = _job_of({"job": job, **entries}, given)
     if named not in (job, *others):
         raise InputError(f"{given} is of the job {named!r}, not {job!r}: `optlaws run {given}` does it")
-    return file, results, entries
+    return file, entries
 
 
 def _scripted(file: Path) -> Results:

@@ -36,13 +36,13 @@ def test_what_is_installed_is_found_beside_the_package(tmp_path: Path, monkeypat
 
 def test_files_of_the_user_come_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    assert packaged.problem_file(Path("problems/ledger.toml"))[0] == ROOT / "problems" / "ledger.toml"
+    assert packaged.problem_file(Path("problems/ledger.toml")) == ROOT / "problems" / "ledger.toml"
     Path("problems").mkdir()
     Path("problems/ledger.toml").write_text("", "utf-8")
-    assert packaged.problem_file(Path("problems/ledger.toml"))[0] == Path("problems/ledger.toml")
+    assert packaged.problem_file(Path("problems/ledger.toml")) == Path("problems/ledger.toml")
     Path("optimal_table").write_text("", "utf-8")
-    assert packaged.problem_file(Path("optimal_table")) == (Path("optimal_table"), None)
-    assert packaged.problem_file(Path("lever_tables.toml")) == (Path("lever_tables.toml"), None)
+    assert packaged.problem_file(Path("optimal_table")) == Path("optimal_table")
+    assert packaged.problem_file(Path("lever_tables.toml")) == Path("lever_tables.toml")
 
 
 def test_a_packaged_problem_is_run_by_its_name(

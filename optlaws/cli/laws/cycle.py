@@ -16,7 +16,7 @@ from optlaws.cli.law_options import COLUMNS
 from optlaws.cli.options import Signed, Written, given, options, takes
 from optlaws.cli.show import Answer, busy
 from optlaws.cli.show import save as save_json
-from optlaws.cli.synthesis.run import written
+from optlaws.cli.synthesis.run import check_folder, written
 from optlaws.echo import shortened
 from optlaws.errors import InputError, located
 from optlaws.synthesis.status import Status
@@ -62,7 +62,7 @@ def cycle(
         A problem file whose job is "cycle", or the name of one that comes with optlaws, such as cycle_press; or the
         table of an old cam: columns of text, or a file of a controller.
     out
-        Folder for the table, the pictures and the laws; otherwise where `optlaws run` puts them. Of an old cam for the
+        Folder for the table, the pictures and the laws; results/NAME where you are unless given. Of an old cam for the
         file of --export; otherwise where you are.
     fastest
         The greatest speed of the master at which every axis keeps its limits, what binds there, and the proof: a table,
@@ -101,7 +101,7 @@ def _greatest_speed(file: Path, out: Path | None) -> Answer:
     from optlaws.plots.style import figure_of
     from optlaws.results import Results
 
-    source, _, entries = problem_of_job(file, "cycle")
+    source, entries = problem_of_job(file, "cycle")
     with busy(f"{file}"):
         spec, cycles = read(entries, source)
         speeds = job.fastest_of(cycles, source)
@@ -124,14 +124,12 @@ def _greatest_speed(file: Path, out: Path | None) -> Answer:
 
 def _job(file: Path, out: Path | None) -> Answer:
     """The job of a problem file, with its main picture in the file of --plot too; or its data for programs."""
-    from optlaws.files import writing
     from optlaws.jobs import job
     from optlaws.jobs.cycle import TOGETHER, answer
     from optlaws.jobs.job import problem_of_job
     from optlaws.jobs.job_entries import plain_name
 
-    source, folder, entries = problem_of_job(file, "cycle")
-    place = out or folder
+    source, entries = problem_of_job(file, "cycle")
 
     @cache
     def results() -> Results:
@@ -144,9 +142,8 @@ def _job(file: Path, out: Path | None) -> Answer:
         return results().figure(names[0] if len(names) == 1 else TOGETHER)
 
     def shown() -> Iterator[str]:
-        if place is not None:
-            writing.check_place(place / "results.md")
-        yield from written(results(), place)
+        check_folder(source, out)
+        yield from written(results(), out)
 
     return Answer(shown, partial(answer, entries, source), drawn)
 

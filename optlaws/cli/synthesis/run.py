@@ -20,10 +20,8 @@ def run(*files: Path, out: Path | None = None) -> Answer:
     files
         Problem files (TOML), or names of those that come with optlaws, such as optimal_table.
     out
-        Folder for the results of a single file; otherwise results/NAME beside the folder of the problem file, and of a
-        name results/NAME where you are.
+        Folder for the results of a single file; results/NAME where you are unless given.
     """
-    from optlaws.files import writing
     from optlaws.files.packaged import problem_file, problem_names
     from optlaws.jobs import job
 
@@ -32,24 +30,28 @@ def run(*files: Path, out: Path | None = None) -> Answer:
     if out is not None and len(files) > 1:
         raise InputError("--out takes the results of one problem file; several were named")
     sources = [problem_file(file) for file in files]
-    for place in (out or folder for _, folder in sources):
-        if place is not None:
-            writing.check_place(place / "results.md")
+    for source in sources:
+        check_folder(source, out)
 
     def shown() -> Iterator[str]:
-        for file, folder in sources:
-            with busy(f"{file}"):
-                results = job.done(file)
-            yield from written(results, out or folder)
+        for source in sources:
+            with busy(source.name):
+                results = job.done(source)
+            yield from written(results, out)
 
     return Answer(shown, list)
 
 
+def check_folder(file: Path, out: Path | None) -> None:
+    """Refuse, before anything is computed, a folder in which the results of a problem file could not be written."""
+    from optlaws.files.writing import check_place
+
+    check_place((out or Path("results", file.stem)) / "results.md")
+
+
 def written(results: Results, out: Path | None) -> Iterator[str]:
     """Write the results of a problem file; the lines of their pages, and the files."""
-    from optlaws.jobs import job
-
-    files = results.write(job.folder_of(results.file) if out is None else out)
+    files = results.write(out)
     for text in (file for file in files if file.suffix == ".md"):
         yield from (line for line in text.read_text("utf-8").splitlines() if not line.startswith("<!--"))
     yield from (str(_near(file)) for file in files)

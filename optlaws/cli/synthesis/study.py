@@ -33,7 +33,7 @@ def study(
     file
         Study file (TOML).
     out
-        Directory of the study; by default, studies/NAME beside the folder of the study file.
+        Directory of the study; studies/NAME where you are unless given.
     workers
         The number of points solved at a time; by default, all cores, or all threads of the cluster.
     dask
@@ -50,7 +50,7 @@ def study(
     from optlaws.files import writing
     from optlaws.studies.progress import Bar, Lines
 
-    target = out if out is not None else file.resolve().parent.parent / "studies" / file.stem
+    target = out if out is not None else Path("studies", file.stem)
     if not target.exists():
         writing.check_place(target / "rows.parquet")
     console = progress()
