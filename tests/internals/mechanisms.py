@@ -2,6 +2,7 @@
 
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
 from optlaws.mechanisms.linkages.move_limit import move_limit
+from optlaws.mechanisms.linkages.plane_linkages import SliderCrank
 from optlaws.mechanisms.machine.machine import Measure
 from optlaws.mechanisms.machine.output_constants import OutputConstant, OutputPeak, output_peak, output_rms
 from optlaws.mechanisms.machine.polydyne import CamPeak, CamPower, cam_factors, cam_powers, gain

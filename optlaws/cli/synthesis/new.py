@@ -13,7 +13,7 @@ from optlaws.cli.show import Answer
 from optlaws.errors import InputError
 from optlaws.jobs.starters.starter_numbers import ABOUT
 
-Kind = Literal["cycle", "cam", "machine", "study", "law"]
+Kind = Literal["cycle", "cam", "drive", "mechanism", "fastest", "interlock", "machine", "law", "study"]
 _OPTIONS = Options(
     {
         name: Option(f"--{name}", str, about, signed=True, group="Numbers of the kinds of files")
@@ -40,7 +40,8 @@ def new(
     Parameters
     ----------
     kind
-        What is to be solved: a cycle of an axis, a disc cam, a move with an elastic load, a study, or a single law.
+        What is to be solved: a cycle of an axis, a disc cam, a table with its motor and gear, a mechanism of links, the
+        least time of a move, two axes that must not meet, a move with an elastic load, a single law, or a study.
     file
         The file to write, which must not be there yet; KIND.toml unless given.
     """

@@ -12,6 +12,7 @@ from shlex import quote
 from textwrap import fill
 from typing import Any
 
+from optlaws.cycles.axes.interlock import After
 from optlaws.cycles.usual_law import USUAL
 from optlaws.entries.declared import Declared
 from optlaws.entries.reference import sentences
@@ -20,11 +21,17 @@ from optlaws.errors import InputError, located
 from optlaws.files.reading import check_names
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import CycleProblemFile, read_given
+from optlaws.jobs.fastest import FastestProblemFile
 from optlaws.jobs.machine_laws import MachineLawsProblemFile
 from optlaws.jobs.solutions import SolutionsProblemFile
 from optlaws.jobs.starters.starter_numbers import DERIVATIVES, TYPES, numbers_of
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.motion.quantities import DIMENSIONS, either, quantity
+from optlaws.mechanisms.drives.drive_train import Drive
+from optlaws.mechanisms.drives.motor import Motor
+from optlaws.mechanisms.linkages.mechanism import Mechanism
+from optlaws.mechanisms.linkages.mechanism_kinds import Loads
+from optlaws.mechanisms.linkages.plane_linkages import SliderCrank
+from optlaws.motion.quantities import DIMENSIONS, either, in_small_units, quantity
 from optlaws.studies.problem_entries import problem
 from optlaws.studies.specification import StudyFile, read_study
 
@@ -35,6 +42,8 @@ Answers = dict[str, str | None]
 _PLACE = re.compile(r"\$\{([\w-]+)(?:\|([^}]*))?\}")
 _FOLDER = Path(__file__).parent
 _DIGITS = 5
+#: velocity, acceleration and jerk of an axis that slides, and of one that turns
+_LIMITS = ("1.5 m/s", "12 m/s^2", "600 m/s^3"), ("10 rad/s", "100 rad/s^2", "5000 rad/s^3")
 
 
 def _read(text: str, name: str) -> str:
@@ -63,11 +72,14 @@ class Starter:
     derived: Callable[[Answers], Answers]  #: further answers that follow from those given
     check: Callable[[Mapping[str, Any], Path], object]  #: refuses the entries of a file that could not be run
     value: type[Declared]  #: what the file is read as: a # alone stands for what the entry below it says
+    tables: Mapping[str, type[Declared]] = field(
+        default_factory=dict
+    )  #: what its tables are read as, by their headings
     usual: Answers = field(default_factory=dict)  #: answers of its own unless others are given
 
     def run(self, file: Path) -> str:
         """The command behind `optlaws` that runs a file."""
-        return f"{self.command} {quote(file.as_posix())} --out {quote(file.stem)}"
+        return f"{self.command} {quote(file.as_posix())}"
 
     def text(self, given: Mapping[str, str], file: Path) -> str:
         """The text of the file: each place with its answer; the line of an entry that is left out as a comment."""
@@ -80,6 +92,8 @@ class Starter:
         about = sentences(self.value)
         lines = (_FOLDER / f"{self.kind}.toml").read_text("utf-8").splitlines()
         for i, line in enumerate(lines):
+            if line.startswith("["):
+                about = sentences(self.tables.get(line.strip("[]"), self.value))
             if line == "#":
                 name = lines[i + 1].lstrip("# ").partition(" ")[0]
                 lines[i] = fill(about[name], 120, initial_indent="# ", subsequent_indent="# ")
@@ -125,21 +139,25 @@ def _si(answers: Answers, name: str) -> tuple[str, float]:
 def _of_cycle(answers: Answers) -> Answers:
     """Modified sine's jerk in the shorter motion, and the names of the quantities of an angle or a length."""
     axis, _ = _si(answers, "stroke")
-    usual, turns = _peaks_of_usual(answers)["jerk"], axis == "angle"
+    usual, turns = _usual_of_cycle(answers)["jerk"], axis == "angle"
     if answers["mass"] is not None:
         quantity(answers["mass"], "moment of inertia" if turns else "mass", "--mass")
     names = {"axis": "table", "inertia": "inertia"} if turns else {"axis": "slide", "inertia": "mass"}
     return {"modified_sine_jerk": usual, "jerk": answers["jerk"] or usual, **names}
 
 
-def _peaks_of_usual(answers: Answers) -> dict[str, str]:
-    """The peaks of modified sine in the shorter of two motions, rounded up."""
-    (axis, stroke), speed = _si(answers, "stroke"), _si(answers, "speed")[1]
-    motions = [_si(answers, name) for name in ("rise", "return")]
+def _usual_of_cycle(answers: Answers) -> dict[str, str]:
+    """The peaks of modified sine in the shorter of two motions."""
+    speed, motions = _si(answers, "speed")[1], [_si(answers, name) for name in ("rise", "return")]
     shorter = min(value / speed if kind == "angle" else value for kind, value in motions)
-    unit = "rad" if axis == "angle" else "m"
+    return _peaks_of_usual(_si(answers, "stroke"), shorter)
+
+
+def _peaks_of_usual(far: tuple[str, float], duration: float) -> dict[str, str]:
+    """The peaks of modified sine in a motion so far in a duration, rounded up."""
+    unit = "rad" if far[0] == "angle" else "m"
     return {
-        name: f"{_at_least(_usual(constant) * stroke / shorter**nu)} {unit}/s{f'^{nu}' if nu > 1 else ''}"
+        name: f"{_at_least(_usual(constant) * far[1] / duration**nu)} {unit}/s{f'^{nu}' if nu > 1 else ''}"
         for nu, (name, constant) in enumerate(zip(DERIVATIVES, "BCJ", strict=True), 1)
     }
 
@@ -147,11 +165,42 @@ def _peaks_of_usual(answers: Answers) -> dict[str, str]:
 def _of_cam(answers: Answers) -> Answers:
     """The peaks of modified sine as limits; with a mass the power is least, and with it the torque at the shaft."""
     quantity(answers["stroke"], "length", "--stroke")
-    usual, massive = _peaks_of_usual(answers), answers["mass"] is not None
+    usual, massive = _usual_of_cycle(answers), answers["mass"] is not None
     limits: Answers = {name: answers[name] or usual[name] for name in DERIVATIVES}
     if not massive:  # it is what is least
         limits["acceleration"] = answers["acceleration"] or None
     return _of_cycle(answers) | limits | {"minimise": "power" if massive else "acceleration"}
+
+
+def _of_drive(answers: Answers) -> Answers:
+    """Modified sine's jerk."""
+    stroke = quantity(answers["stroke"], "angle", "--stroke")
+    usual = _peaks_of_usual(("angle", stroke), _si(answers, "duration")[1])["jerk"]
+    return {"jerk": answers["jerk"] or usual, "modified_sine_jerk": usual}
+
+
+def _of_mechanism(answers: Answers) -> Answers:
+    """Modified sine's jerk in a turn."""
+    quantity(answers["mass"], "mass", "--mass")
+    return _of_drive(answers | {"stroke": "360 deg"})
+
+
+def _of_fastest(answers: Answers) -> Answers:
+    """Limits of an axis that slides, or of one that turns, where none are given."""
+    turns = _si(answers, "stroke")[0] == "angle"
+    limits = {name: answers[name] or most for name, most in zip(DERIVATIVES, _LIMITS[turns], strict=True)}
+    for name, most in limits.items():
+        quantity(most, f"angular {name}" if turns else name, f"--{name}")
+    return {**limits, "axis": "arm" if turns else "gripper"}
+
+
+def _of_interlock(answers: Answers) -> Answers:
+    """The position at which the table is as good as in its next place."""
+    (axis, index), (slide, stroke) = _si(answers, "index"), _si(answers, "stroke")
+    for name, of, dimension, most in (("clear", "stroke", slide, stroke), ("within", "index", axis, index)):
+        if not quantity(answers[name], dimension, f"--{name}") < most:
+            raise InputError(f"--{name} must be below --{of}, {answers[of]}, got {answers[name]}")
+    return {"in_place": in_small_units(index - _si(answers, "within")[1], axis)}
 
 
 def _of_law(answers: Answers) -> Answers:
@@ -193,9 +242,27 @@ _KINDS = [
     Starter("cycle", "cycle", _of_cycle, read_given, CycleProblemFile),
     Starter("cam", "run", _of_cam, lambda entries, file: CamProblemFile.read(entries, file).cycle, CamProblemFile),
     Starter(
+        "drive", "cycle", _of_drive, read_given, CycleProblemFile,
+        {"axis.mechanism": Mechanism, "axis.drive": Drive, "axis.drive.motor": Motor},
+        {"stroke": "45 deg", "duration": "0.25 s"},
+    ),
+    Starter(
+        "mechanism", "cycle", _of_mechanism, read_given, CycleProblemFile,
+        {"axis.mechanism": SliderCrank, "axis.mechanism.loads": Loads},
+        {"mass": "12 kg", "duration": "0.5 s", "period": "0.7 s"},
+    ),
+    Starter(
+        "fastest", "run", _of_fastest, FastestProblemFile.read, FastestProblemFile,
+        usual={"stroke": "300 mm", "frequency": "13 Hz"},
+    ),
+    Starter(
+        "interlock", "cycle", _of_interlock, read_given, CycleProblemFile, {"interlocks": After},
+        {"stroke": "50 mm", "rise": "60 deg", "dwell": "120 deg", "return": "60 deg", "speed": "60 rpm"},
+    ),
+    Starter(
         "machine", "run", _of_machine,
         lambda entries, file: MachineLawsProblemFile.read(entries, file).machine.machine(), MachineLawsProblemFile,
-        {"stroke": "300 mm", "duration": "0.4 s"},
+        usual={"stroke": "300 mm", "duration": "0.4 s"},
     ),
     Starter(
         "law", "run", _of_law,

@@ -2,38 +2,50 @@
 
 from __future__ import annotations
 
-from optlaws.entries.value_types import Choice, Measured, Number, ValueType, Whole
+from math import inf
+
+from optlaws.entries.value_types import Choice, InSI, Measured, Number, ValueType, Whole
 
 _STROKE, _DURATION = Measured("length", "angle", above=0.0), Measured("angle", "time", above=0.0)
-_LENGTH, _MASS = Measured("length", above=0.0), Measured("mass", "moment of inertia", above=0.0)
+_LENGTH, _SIDE = Measured("length", above=0.0), InSI("length", above=0.0)
+_MASS = Measured("mass", "moment of inertia", above=0.0)
 DERIVATIVES = ("velocity", "acceleration", "jerk")
 _VELOCITY, _ACCELERATION, _JERK = (Measured(name, f"angular {name}", above=0.0) for name in DERIVATIVES)
+_INERTIA, _TORQUE = InSI("moment of inertia", least=0.0), InSI("torque", above=0.0, absent=inf)
 _UNTIL = "an angle of the master or a time."
 _LEAST = "unless given the least one that keeps pressure angle and radius of curvature."
 #: by the kinds of their files what numbers may be, what they are unless given, and what they say; None leaves one out
 _TABLES: dict[str, dict[str, tuple[ValueType, str | None, str]]] = {
-    "cycle, cam, machine, law": {
-        "stroke": (_STROKE, "35 mm", "How far it moves: a length or an angle, of a cam a length."),
+    "cycle, cam, drive, fastest, interlock, machine, law": {
+        "stroke": (_STROKE, "35 mm", "How far it moves: a length or an angle, of a cam a length, of a drive an angle."),
     },
-    "cycle, cam": {
+    "cycle, cam, interlock": {
         "rise": (_DURATION, "120 deg", f"How long the rise takes: {_UNTIL}"),
         "dwell": (_DURATION, "90 deg", f"How long it dwells behind the rise: {_UNTIL}"),
         "return": (_DURATION, "100 deg", f"How long the return takes: {_UNTIL}"),
         "speed": (Measured("angular velocity", above=0.0), "200 rpm", "Speed of the master."),
+    },
+    "cycle, cam, mechanism": {
         "mass": (
             _MASS,
             None,
-            "Mass, or moment of inertia, that moves: table and picture then show force and power.",
+            "Mass, or moment of inertia, that moves, of a mechanism its slide: force and power are then shown.",
         ),
     },
-    "cycle, cam, law": {
-        "velocity": (_VELOCITY, None, "Greatest velocity; of a cam that of modified sine unless given, else none."),
+    "cycle, cam, fastest, law": {
+        "velocity": (
+            _VELOCITY,
+            None,
+            "Greatest velocity; unless given of a cam that of modified sine, of a least time an example, else none.",
+        ),
         "acceleration": (
             _ACCELERATION,
             None,
-            "Greatest acceleration; of a cam with a mass that of modified sine unless given, else none.",
+            "Greatest acceleration; unless given of a cam with a mass that of modified sine, else as the velocity.",
         ),
-        "jerk": (_JERK, None, "Greatest jerk; that of modified sine unless given."),
+    },
+    "cycle, cam, drive, mechanism, fastest, law": {
+        "jerk": (_JERK, None, "Greatest jerk; unless given that of modified sine, of a least time an example."),
     },
     "cam": {
         "roller": (_LENGTH, "12 mm", "Radius of the roller."),
@@ -42,10 +54,35 @@ _TABLES: dict[str, dict[str, tuple[ValueType, str | None, str]]] = {
         "curvature": (Measured("length", least=0.0), "5 mm", "Least radius of curvature."),
         "prime-radius": (_LENGTH, None, f"Prime radius; {_LEAST}"),
     },
-    "machine, law": {"duration": (Measured("time", above=0.0), "0.1 s", "How long the move takes.")},
-    "machine": {
+    "drive, mechanism, machine, law": {
+        "duration": (Measured("time", above=0.0), "0.1 s", "How long the move takes."),
+    },
+    "drive, mechanism": {"period": (Measured("time", above=0.0), "0.6 s", "Time of the whole cycle.")},
+    "drive": {
+        "inertia": (_INERTIA, "0.8 kg m^2", "Moment of inertia of the table that is turned."),
+        "friction": (Measured("torque", least=0.0), None, "Friction at the table; none unless given."),
+        "ratio": (Number(above=0.0), "20", "Turns of the motor with a turn of the table."),
+        "rotor": (_INERTIA, "3e-4 kg m^2", "Moment of inertia of the motor."),
+        "rated-torque": (_TORQUE, "2 N m", "Torque that the motor bears for ever."),
+        "peak-torque": (_TORQUE, "6 N m", "Torque that the motor must not exceed."),
+        "greatest-speed": (InSI("angular velocity", above=0.0, absent=inf), "3000 rpm", "Greatest speed of the motor."),
+    },
+    "mechanism": {
+        "crank": (_SIDE, "100 mm", "Length of the crank."),
+        "rod": (_SIDE, "400 mm", "Length of the rod."),
+        "flywheel": (_INERTIA, "0.5 kg m^2", "Moment of inertia at the crank."),
+        "load": (Measured("force", above=0.0), "600 N", "Force of the process against the slide."),
+    },
+    "interlock": {
+        "index": (_STROKE, "45 deg", "How far the table moves while the slide is out of its way."),
+        "clear": (_STROKE, "20 mm", "Position from which on the slide is out of the way."),
+        "within": (_STROKE, "0.5 deg", "How near its places the table is as good as there."),
+    },
+    "fastest, machine": {
         "frequency": (Measured("frequency", above=0.0), "8.5 Hz", "Natural frequency of the elastic load."),
         "damping": (Number(least=0.0), "0.02", "Damping ratio of the load."),
+    },
+    "machine": {
         "spread": (Number(least=0.0, most=1.0), "0.1", "How far the frequency may be off, as a share of it."),
         "sway": (_STROKE, "1 mm", "How far the load may sway afterwards."),
     },
