@@ -22,7 +22,7 @@ from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Array, Quantity
+from optlaws.numbers import Array, NumberOrQuantity, Quantity
 from optlaws.numerics.branch_and_bound import extremes_of_each
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair, turned, variable
@@ -328,7 +328,7 @@ class PeaksAsMade(Declared, title="peaks as made"):
     points: tuple[int, ...] = entry(Listed(POINTS, most=10), "Of tables that the cam is cut by.", default=(361, 721))
     decimals: tuple[int, ...] = entry(Listed(DECIMALS, most=10), "Of a millimetre in these tables.", default=(3, 4, 6))
     curve: str = entry(Choice(*MADE_CURVES), "Of the tables.", default="profile")
-    error: Quantity | None = entry(
+    error: NumberOrQuantity | None = entry(
         Measured("length", above=0.0), "Of the profile: the amplitude of its waves.", default=None, example="0.01 mm"
     )
     waves: tuple[int, ...] = entry(Listed(WAVES, most=10), "Of the error, in a turn.", default=(3, 12))

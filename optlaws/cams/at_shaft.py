@@ -29,7 +29,7 @@ from optlaws.mechanisms.linkages.mechanism_kinds import (
     reduced_inertia,
 )
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Array, NumberOrQuantity, Quantity
+from optlaws.numbers import Array, NumberOrQuantity
 from optlaws.numerics import chebyshev
 from optlaws.tolerances import CLOSURE
 
@@ -69,7 +69,7 @@ class CamAtShaft(MechanismKind, kind="cam"):
     turns_steadily = True
 
     _: KW_ONLY
-    prime_radius: Quantity = entry(Measured("length", above=0.0), "Of the prime circle.", example="60 mm")
+    prime_radius: NumberOrQuantity = entry(Measured("length", above=0.0), "Of the prime circle.", example="60 mm")
     follower: CamFollower = entry(
         ValueOf(CamFollower), "The follower.", example={"kind": "translating roller", "radius": "12 mm"}
     )

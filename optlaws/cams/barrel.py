@@ -31,7 +31,7 @@ from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
-from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
+from optlaws.numbers import Array, NumberOrQuantity, Quantity, derivative, number_or_array, real_times
 from optlaws.numerics.taylor import Jet, variable
 
 LENGTH = Measured("length", above=0.0)
@@ -43,9 +43,9 @@ SIDES: dict[Side, float] = {"upper": 1.0, "lower": -1.0}
 class Groove(Declared, title="a barrel"):
     """A cylinder with a groove, and the roller in it."""
 
-    outer_radius: Quantity = entry(LENGTH, "Of the cylinder.", example="60 mm")
-    depth: Quantity = entry(LENGTH, "Of the groove.", example="12 mm")
-    roller_radius: Quantity = entry(LENGTH, "Of the roller.", example="8 mm")
+    outer_radius: NumberOrQuantity = entry(LENGTH, "Of the cylinder.", example="60 mm")
+    depth: NumberOrQuantity = entry(LENGTH, "Of the groove.", example="12 mm")
+    roller_radius: NumberOrQuantity = entry(LENGTH, "Of the roller.", example="8 mm")
 
     @property
     def radii(self) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from optlaws.entries.declared import Declared, ValueOf, declared, documented_by,
 from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.motion.quantities import Exact, quantity
-from optlaws.numbers import Quantity
+from optlaws.numbers import NumberOrQuantity, Quantity
 
 #: what gives a pair by what its follower's way is
 _GIVEN_BY = {"length": "distance", "angle": "angle"}
@@ -20,13 +20,13 @@ _GIVEN_BY = {"length": "distance", "angle": "angle"}
 class ReturnFollower(Declared, title="a pair"):
     """The second follower of a pair of cams: how it is fixed to the first one, and what it is where it is another."""
 
-    distance: Quantity | None = entry(
+    distance: NumberOrQuantity | None = entry(
         Measured("length", above=0.0),
         "Between rollers or faces along a slide's way.",
         default=None,
         example="170 mm",
     )
-    angle: Quantity | None = entry(
+    angle: NumberOrQuantity | None = entry(
         Measured("angle"), "Between the two arms on a pivot.", default=None, example="110 deg"
     )
     follower: CamFollower | None = entry(ValueOf(CamFollower), "The first one's unless given.", default=None)

@@ -29,7 +29,7 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.mechanism_formulas import LinearForce, TableKind, formula_of, rescaled, table_numbers
 from optlaws.motion.quantities import TURN, in_degrees, quantity
 from optlaws.motion.smooth_stretches import jet_of_parts
-from optlaws.numbers import Array, Quantity, number_or_array, real_times
+from optlaws.numbers import Array, NumberOrQuantity, Quantity, number_or_array, real_times
 from optlaws.numerics.branch_and_bound import Extremes, Function, extremes, integral
 from optlaws.numerics.interval import Interval, exact, highest, middle
 from optlaws.numerics.roots import bisect
@@ -42,7 +42,7 @@ from optlaws.tolerances import CLOSURE, FORCE_EXTREMES
 class Material(Declared, title="a material"):
     """A material of a cam or its follower."""
 
-    young: Quantity = entry(Measured("pressure", above=0.0), "Young's modulus.", example="210 GPa")
+    young: NumberOrQuantity = entry(Measured("pressure", above=0.0), "Young's modulus.", example="210 GPa")
     poisson: float = entry(Number(above=-1.0, most=0.5), "Poisson's ratio.", example=0.3)
 
 
@@ -80,7 +80,7 @@ class Surfaces(Declared, title="forces"):
     friction: Friction = entry(
         ValueOf(Friction), "Friction of the surfaces, and of a slide in its guide.", default=Friction()
     )
-    width: Quantity | None = entry(
+    width: NumberOrQuantity | None = entry(
         Measured("length", above=0.0), "Of the contact, for Hertz's pressure.", default=None, example="20 mm"
     )
     materials: tuple[Any, Any] = entry(

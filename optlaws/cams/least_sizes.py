@@ -29,7 +29,7 @@ from optlaws.entries.value_types import Measured
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import Exact, in_degrees, quantity
-from optlaws.numbers import Array, Quantity
+from optlaws.numbers import Array, NumberOrQuantity, Quantity
 from optlaws.numerics.interval import Interval, between, exact
 from optlaws.numerics.peaks import is_kept
 from optlaws.numerics.roots import bisect, bracketed_root, holds_throughout
@@ -48,14 +48,14 @@ class CamLimits(Declared, title="limits of a cam"):
     a pressure angle of 30 deg and a radius of curvature of 5 mm
     """
 
-    pressure_angle: Quantity | None = entry(
+    pressure_angle: NumberOrQuantity | None = entry(
         Measured("angle"),
         "The greatest magnitude of the pressure angle.",
         default=None,
         label="pressure ≤",
         example="30 deg",
     )
-    radius_of_curvature: Quantity | None = entry(
+    radius_of_curvature: NumberOrQuantity | None = entry(
         Measured("length", least=0.0),
         "The least radius of curvature of the profile where it bulges.",
         default=None,

@@ -15,10 +15,11 @@ from optlaws.cycles.specification.programme import REST, Layout, Programme, is_o
 from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment, Dwell
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, FrozenTable, ValueOf, declared, entries_of, entry, frozen, thawed
-from optlaws.entries.value_types import Measured, ReadBy, Text, Whole
+from optlaws.entries.value_types import KnownQuantity, Measured, ReadBy, Text, Whole
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
+from optlaws.motion.quantities import Derived
 from optlaws.numbers import MOST_DEGREE, Quantity
 
 if TYPE_CHECKING:
@@ -90,13 +91,13 @@ class Specification(Declared, title="a stored cycle"):
         SEGMENTS, "What happens, in order: `Rise`, `Return`, `Move`, `Dwell`, `ConstantVelocity`, `Free`."
     )
     _: KW_ONLY
-    speed: Quantity | None = entry(
+    speed: KnownQuantity = entry(
         Measured("angular velocity", above=0.0),
         "Speed of the master; give it or the period.",
         default=None,
         example="200 rpm",
     )
-    period: Quantity | None = entry(
+    period: KnownQuantity = entry(
         Measured("time", above=0.0), "The duration of the cycle; it or the speed.", default=None, example="0.3 s"
     )
     minimise: str = entry(
@@ -117,10 +118,10 @@ class Specification(Declared, title="a stored cycle"):
         example={"velocity": "616 mm/s"},
     )
     start: Quantity | None = entry(
-        Measured("length", "angle"), "Position at the start, 0 unless given.", default=None, example="0 mm"
+        Measured("length", "angle", bare=True), "Position at the start, 0 unless given.", default=None, example="0 mm"
     )
     advance: Quantity | None = entry(
-        Measured("length", "angle"),
+        Measured("length", "angle", bare=True),
         "The advance of each cycle over the previous one, 0 unless given.",
         default=None,
         example="45 deg",
@@ -154,6 +155,7 @@ class Specification(Declared, title="a stored cycle"):
     )
 
     def _check(self) -> None:
+        self._complete_clock()
         check_objective(self.minimise, self._load)
         for stretch, limits in zip(self.programme.stretches, self.limits_of_segments, strict=True):
             if self.order < _JERK and _JERK in limits and is_optimal(stretch.given):
@@ -165,10 +167,19 @@ class Specification(Declared, title="a stored cycle"):
             # velocities that do not meet, and forces at joints beyond their limits, are refused at once
             check_limits_at_joints(self.layout, self.in_si, self.duration)
 
+    def _complete_clock(self) -> None:
+        """Of the speed and the period the one that is not given, from the other."""
+        speed, period = (None if isinstance(each, Derived) else each for each in (self.speed, self.period))
+        seconds = period_of(speed, period)
+        if speed is None:
+            object.__setattr__(self, "speed", Derived(60.0 / seconds, "rpm"))
+        else:
+            object.__setattr__(self, "period", Derived(seconds, "s"))
+
     @kept_property
     def programme(self) -> Programme:
         """The cycle as numbers in SI units."""
-        return programme(self.segments, period_of(self.speed, self.period), self.start, self.advance)
+        return programme(self.segments, period_of(None, self.period), self.start, self.advance)
 
     @property
     def axis(self) -> str:
@@ -276,7 +287,11 @@ class Specification(Declared, title="a stored cycle"):
         {'kind': 'rise', 'by': '35 mm', 'duration': '120 deg'}
         """
         entries = {each.name: (each, getattr(self, each.name)) for each in entries_of(type(self)).values()}
-        plain = {name: each.type.plain(value) for name, (each, value) in entries.items() if value not in (None, {})}
+        plain = {
+            name: each.type.plain(value)
+            for name, (each, value) in entries.items()
+            if value not in (None, {}) and not isinstance(value, Derived)
+        }
         segments = plain.pop("segments")
         return {"format": FORMAT, **plain, "segments": segments}
 

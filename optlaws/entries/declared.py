@@ -16,7 +16,7 @@ from optlaws.echo import shortened, unknown_key
 from optlaws.entries.value_types import AnyTable, Kept, ValueType
 from optlaws.errors import CallError, InputError, located
 from optlaws.files.reading import JsonText, check_names
-from optlaws.motion.quantities import written
+from optlaws.motion.quantities import Derived, written
 
 
 class FrozenTable(dict[str, Any]):
@@ -375,10 +375,12 @@ class Declared(JsonText):
         return data
 
     def to_dict(self) -> dict[str, Any]:
-        """The entries as plain data, which `from_dict` takes back; those with their default are left out."""
+        """The entries as plain data, which `from_dict` takes back; without those with their default or that follow."""
         plain = {}
         for each in entries_of(type(self)).values():
             value = getattr(self, each.field)
+            if isinstance(value, Derived):
+                continue
             if (self.writes_defaults and each.name not in self.newer) or value != each.kept_default:
                 plain[each.name] = None if value is None else each.type.plain(value)
         return plain

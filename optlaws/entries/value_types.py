@@ -15,7 +15,7 @@ from optlaws.motion.quantities import DIMENSIONS, either, written
 from optlaws.numbers import bounded, finite, is_usual, real, whole
 
 if TYPE_CHECKING:
-    from optlaws.numbers import NumberOrQuantity
+    from optlaws.numbers import NumberOrQuantity, Quantity
 
 KeptT = TypeVar("KeptT")
 GivenT = TypeVar("GivenT")
@@ -35,6 +35,8 @@ class Kept(Generic[KeptT, GivenT]):
 SINumber: TypeAlias = Kept[float, "NumberOrQuantity"]
 #: likewise, of which None says that there is none
 SILimit: TypeAlias = Kept[float, "NumberOrQuantity | None"]
+#: a quantity that follows from others where it is not given
+KnownQuantity: TypeAlias = Kept["Quantity", "NumberOrQuantity | None"]
 
 
 class ValueType(ABC):
@@ -232,7 +234,7 @@ class _Physical(_Ranged):
     """A quantity of one of several dimensions, in a range of its number in SI units."""
 
     dimensions: tuple[str, ...]
-    bare: bool = False  #: whether a number without a unit is one in SI units
+    bare: bool = False  #: whether a number is in SI units though there are several dimensions, one of which others say
 
     def number(self, value: Any, name: str) -> float:
         """The number of a value in SI units, if it is in the range."""
@@ -252,14 +254,14 @@ class _Physical(_Ranged):
 
     def schema(self) -> dict[str, Any]:
         text = {"type": "string", "description": f"{self.words}, such as {self.example!r}"}
-        return {"anyOf": [text, super().schema()]} if self.bare else text
+        return {"anyOf": [text, super().schema()]} if self.bare or len(self.dimensions) == 1 else text
 
 
 class Measured(_Physical):
-    """A quantity that stays as it is written, such as "35 mm".
+    """A quantity that stays as it is written, such as "35 mm"; a number of one dimension is one in SI units.
 
-    >>> Measured("length", above=0.0).read("35 mm", "radius")
-    '35 mm'
+    >>> Measured("length", above=0.0).read("35 mm", "radius"), Measured("length").read(0.02, "radius")
+    ('35 mm', '0.02 m')
     >>> Measured("angle", "time").read("35 mm", "at")
     Traceback (most recent call last):
     optlaws.errors.InputError: at must be an angle such as '45 deg' or a time such as '0.3 s', but '35 mm' is a length
@@ -269,7 +271,7 @@ class Measured(_Physical):
         super().__init__(dimensions=dimensions, bare=bare, **ends)
 
     def read(self, value: Any, name: str) -> Any:
-        text = written(value)
+        text = value if self.bare and real(value) is not None else written(value, self.dimensions)
         self.number(text, name)
         return text
 

@@ -1,6 +1,7 @@
 """Quantities: the kinds that are limited, what people write as floats in SI units, and the units that tables show.
 
-SI units are metres, radians and seconds.
+SI units are metres, radians and seconds. A number without a unit is in SI units, and refused where it could be of
+several dimensions, as a displacement in m or rad.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from enum import Enum
 from fractions import Fraction
 from functools import lru_cache
 from math import inf, isfinite, pi
-from typing import Any, NamedTuple, Self
+from typing import Any, ClassVar, NamedTuple, Self
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -44,7 +45,7 @@ _NAMES = {name: names for names in (*_BASES.values(), *_DERIVED) for name in nam
 _PREFIXES = {"nano": -9, "micro": -6, "milli": -3, "centi": -2, "kilo": 3, "mega": 6, "giga": 9}
 _PREFIXES |= {"n": -9, "µ": -6, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
 
-#: by dimension: units that errors name, and an example
+#: by dimension: units that errors name, that of SI first, and an example
 DIMENSIONS = {
     "length": ("m, cm, mm, um, in, ft or thou", "35 mm"),
     "angle": ("rad, deg, turn or rev", "45 deg"),
@@ -64,7 +65,7 @@ DIMENSIONS = {
     "torque": ("N m or Nm", "0.4 N m"),
     "power": ("W or kW", "500 W"),
     "energy": ("J", "12 J"),
-    "pressure": ("MPa or GPa", "210 GPa"),
+    "pressure": ("Pa, MPa or GPa", "210 GPa"),
     "stiffness": ("N/m or N/mm", "3 N/mm"),
     "torsional stiffness": ("N m/rad", "0.4 N m/deg"),
     "viscous friction": ("N s/m", "5 N s/m"),
@@ -103,14 +104,27 @@ class Exact(str):
     __slots__ = ("number", "unit")
     number: float
     unit: str
+    digits: ClassVar[str] = ""
 
     def __new__(cls, number: float, unit: str) -> Self:
-        text = super().__new__(cls, f"{number!r} {unit}")
+        text = super().__new__(cls, f"{number:{cls.digits}} {unit}")
         text.number, text.unit = number, unit
         return text
 
     def __getnewargs__(self) -> tuple[float, str]:  # type: ignore[override] # a text has itself alone
         return self.number, self.unit
+
+
+class Derived(Exact):
+    """A quantity that follows from another entry of the same value, and gives way to it where that is replaced.
+
+    >>> period = Derived(0.1 + 0.2, "s")
+    >>> period, period.number
+    ('0.3 s', 0.30000000000000004)
+    """
+
+    __slots__ = ()
+    digits = ".12g"
 
 
 def quantity(
@@ -121,9 +135,9 @@ def quantity(
     Parameters
     ----------
     value
-        Text: a number, with a decimal point, and its unit; or a quantity of pint, of any registry. Angles are no bare
-        numbers: 45 deg, 0.5 rad, 1 turn. An angular velocity in 1/min or cpm is one in turns. In an acceleration g is
-        that of gravity, elsewhere a gram.
+        Text: a number, with a decimal point, and its unit; or a quantity of pint, of any registry. An angular velocity
+        in 1/min or cpm is one in turns. In an acceleration g is that of gravity, elsewhere a gram. A number is one in
+        SI units, if there is one dimension.
     dimension
         The required dimension, one of `DIMENSIONS`, or several of which it may have any.
     name
@@ -131,20 +145,21 @@ def quantity(
     above
         What it must be above, in SI units.
     bare
-        Whether what has no unit is taken as it is: a number, or an array of numbers, in SI units.
+        Whether what has no unit is taken as it is: an array of numbers, or a number of a dimension that is known
+        elsewhere, in SI units.
 
     Raises
     ------
     InputError
-        If there is no unit, it is not known, or it is one of another dimension; the error names both dimensions, and
-        the units that are known. If it is not above what it must be.
+        If a text has no unit, or a number could be of several dimensions; if a unit is not known, or one of another
+        dimension: the error names both, and the units that are known. If it is not above what it must be.
 
     Examples
     --------
     >>> quantity("616 mm/s", "velocity", "limit"), round(quantity("200 rpm", "angular velocity", "speed"), 6)
     (0.616, 20.943951)
-    >>> quantity("60 deg", ("angle", "time"), "swing", bare=True), quantity(1.5, "angle", "swing", bare=True)
-    (1.047198, 1.5)
+    >>> quantity(0.3, "time", "period"), quantity(1.5, ("length", "angle"), "free", bare=True)
+    (0.3, 1.5)
     >>> quantity("35 mm", "velocity", "limit")
     Traceback (most recent call last):
     optlaws.errors.InputError: limit must be a velocity such as '616 mm/s', but '35 mm' is a length
@@ -196,13 +211,18 @@ def table(entries: Any, name: str, example: str) -> Mapping[str, Any]:
     return entries
 
 
-def written(value: Any) -> Any:
+def written(value: Any, dimensions: tuple[str, ...] = ()) -> Any:
     """A quantity of pint as equivalent text, in SI units where its own are unknown here; other values unchanged.
 
+    A number of one dimension is one in SI units.
+
     >>> from pint import Quantity
-    >>> written(Quantity(35, "mm/s")), written("35 mm")
-    ('35.0 mm/s', '35 mm')
+    >>> written(Quantity(35, "mm/s")), written("35 mm"), written(0.3, ("time",)), written(0.3, ("time", "angle"))
+    ('35.0 mm/s', '35 mm', '0.3 s', 0.3)
     """
+    number = real(value)
+    if number is not None:
+        return Exact(number, _units_of(dimensions[0])[0]) if len(dimensions) == 1 else value
     if type(value).__module__.partition(".")[0] != "pint" or not hasattr(value, "units"):
         return value
     from pint.errors import PintError
@@ -247,7 +267,7 @@ def given_quantity(value: Any, dimensions: tuple[str, ...], name: str) -> Given:
     >>> given_quantity("35 mm", ("length", "angle"), "stroke")
     Given(dimension='length', size=0.035, number=35.0, unit='mm')
     """
-    value = written(value)
+    value = written(value, dimensions)
     number, unit = _parts(value, dimensions, name)
     for dimension in dimensions:
         factor = _si_factor(unit, dimension)
@@ -264,7 +284,7 @@ def given_quantity(value: Any, dimensions: tuple[str, ...], name: str) -> Given:
 def _parts(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[float, str]:
     """The number of a quantity, and the text of its unit, which is known."""
     if isinstance(value, Exact):
-        return value.number, value.unit
+        return finite(value.number, name), value.unit
     text = value if isinstance(value, str) and len(value) <= _LONGEST else ""
     # with the signs of print as keyboards have them
     match = _NUMBER.fullmatch(_POWERS.sub("^-", text.translate(_SIGNS)))
@@ -356,8 +376,12 @@ def _si_factor(unit: str, dimension: str) -> float | None:
     return float(meant.size) if meant is not None and meant.powers == powers else None
 
 
+def _units_of(dimension: str) -> list[str]:
+    return re.split(", | or ", DIMENSIONS[dimension][0])
+
+
 def _powers(dimension: str) -> tuple[int, ...]:
-    unit = _known_unit(re.split(", | or ", DIMENSIONS[dimension][0])[0])
+    unit = _known_unit(_units_of(dimension)[0])
     return unit.powers if unit else ()
 
 

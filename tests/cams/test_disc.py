@@ -135,7 +135,7 @@ def test_profile_and_cutter_path_are_parallel_curves() -> None:
         (OscillatingFlat("150 mm"), "80 deg", "80 mm", "make the swing smaller or pivot_distance greater"),
         (OscillatingFlat("150 mm"), "20 mm", "80 mm", "take a translating follower"),
         (TranslatingFlat(), "20 mm", "0 mm", "prime_radius must be above 0"),
-        (TranslatingFlat(), "20 mm", 80, "without a unit"),
+        (TranslatingFlat(), "20 mm", "80", "without a unit"),
     ],
 )
 def test_what_cannot_be_built_is_refused(follower: CamFollower, stroke: str, radius: object, message: str) -> None:

@@ -2,12 +2,13 @@
 
 import re
 from collections.abc import Callable
-from dataclasses import fields, is_dataclass
-from math import pi
+from dataclasses import fields, is_dataclass, replace
+from math import inf, pi
 from pathlib import Path
 from typing import Any
 
 import hypothesis
+import numpy as np
 import pytest
 from hypothesis import strategies as st
 from pint import UnitRegistry
@@ -34,7 +35,7 @@ from optlaws import (
 )
 from tests.internals.files import reading
 from tests.internals.jobs import read_of_cycle_entries as read
-from tests.internals.motion import DIMENSIONS, either, quantity
+from tests.internals.motion import DIMENSIONS, TURN, either, quantity, written
 
 PINT: UnitRegistry[Any] = UnitRegistry()
 
@@ -162,8 +163,9 @@ def test_every_example_of_an_error_is_of_its_dimension() -> None:
         ("35 mm", "speed must be an angular velocity such as '200 rpm', but '35 mm' is a length"),
         ("3 Hz", "speed must be an angular velocity such as '200 rpm', but '3 Hz' is a frequency"),
         ("3 Hz^2", r"speed must be an angular velocity such as '200 rpm', but '3 Hz\^2' is of dimension 1 / \[time\]"),
-        (200, "speed must be an angular velocity such as '200 rpm', got 200 without a unit"),
-        ("200", "got '200' without a unit"),
+        ("200", "speed must be an angular velocity such as '200 rpm', got '200' without a unit"),
+        (inf, "speed must be a finite real number, got inf"),
+        (True, "speed must be an angular velocity such as '200 rpm', got True"),
         ("200 rmp", "the unit of '200 rmp' is not known"),
         ("9**9**9 rpm", "not known"),
         ("1 rpm*9**9**9", "not known"),
@@ -177,6 +179,33 @@ def test_every_example_of_an_error_is_of_its_dimension() -> None:
 def test_what_is_wrong_is_said(given: object, message: str) -> None:
     with pytest.raises(InputError, match=message):
         quantity(given, "angular velocity", "speed")
+
+
+@pytest.mark.parametrize("dimension", DIMENSIONS)
+def test_a_number_of_one_dimension_is_in_si_units_and_is_kept_with_them(dimension: str) -> None:
+    assert quantity(2.5, dimension, "it") == 2.5
+    kept = written(np.float64(2.5), (dimension,))
+    assert quantity(str(kept), dimension, "it") == 2.5
+    assert PINT.Quantity(kept.removeprefix("2.5 ")).to_base_units().magnitude == 1.0
+    with pytest.raises(InputError, match="it must be above 0, got -1"):
+        quantity(-1, dimension, "it", above=0.0)
+
+
+def test_the_same_cycle_is_made_of_texts_and_of_numbers_and_tells_its_clock_either_way() -> None:
+    def moves(**limits: Any) -> list[Any]:
+        return [Rise("35 mm", "120 deg", limits=limits), Dwell("60 deg"), Return("25 mm")]
+
+    first: dict[str, Any] = {"start": "5 mm", "advance": "10 mm", "limits": {"jerk": ("-9 km/s^3", "8 km/s^3")}}
+    text = Cycle(moves(velocity="900 mm/s"), period="0.3 s", drive={"mass": "2 kg"}, **first)
+    first = {"start": 0.005, "advance": 0.01, "limits": {"jerk": (-9000.0, 8000)}}
+    bare = Cycle(moves(velocity=0.9), period=0.3, drive={"mass": 2}, **first)
+    assert (bare.objective, bare.peak(3), bare.effort.energy) == (text.objective, text.peak(3), text.effort.energy)
+    assert Cycle.from_json(bare.to_json()) == bare
+    assert (bare.period, bare.speed, text.period) == ("0.3 s", "200 rpm", "0.3 s")
+    turned = replace(text, period=None, speed=TURN / 0.3)
+    assert turned.period == "0.3 s"
+    assert replace(turned, speed="100 rpm").period == "0.6 s"
+    assert replace(turned, speed=None, period="1 s").speed == "60 rpm"
 
 
 def test_of_several_dimensions_the_error_names_all() -> None:
@@ -254,10 +283,9 @@ def test_signs_of_print_are_read_as_those_of_keyboards(text: str, dimension: str
         ("1.000,5 mm", "write thousands with no sign"),
         ("1'000 mm", "write thousands with no sign"),
         ("35", "write it as text with its unit, as in '35 mm'"),
-        (35, "write it as text with its unit, as in '35 mm'"),
     ],
 )
-def test_numbers_that_are_written_otherwise_are_refused_with_the_remedy(text: object, remedy: str) -> None:
+def test_numbers_that_are_written_otherwise_are_refused_with_the_remedy(text: str, remedy: str) -> None:
     with pytest.raises(InputError, match=f"it must be a length such as '35 mm', got .*{remedy}"):
         quantity(text, "length", "it")
 

@@ -16,7 +16,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.motion.quantities import TURN, Exact, quantity
-from optlaws.numbers import Array, Quantity, positive
+from optlaws.numbers import Array, NumberOrQuantity, positive
 from optlaws.numerics import chebyshev
 from optlaws.numerics.branch_and_bound import Extremes, extremes
 from optlaws.numerics.interval import Interval
@@ -77,11 +77,13 @@ class LeverCam(Declared, title="a torsion lever in a machine"):
     """
 
     lever: TorsionLever = entry(ValueOf(TorsionLever), "The lever.")
-    inertia: Quantity = entry(Measured("moment of inertia", above=0.0), "Of what the driven link moves.")
-    stroke: Quantity = entry(
+    inertia: NumberOrQuantity = entry(Measured("moment of inertia", above=0.0), "Of what the driven link moves.")
+    stroke: NumberOrQuantity = entry(
         Measured("angle", above=0.0), "Angle of the cam in which the link swings from one extreme to the other."
     )
-    speed: Quantity = entry(Measured("angular velocity", above=0.0), "Of the cam, for which the bars are designed.")
+    speed: NumberOrQuantity = entry(
+        Measured("angular velocity", above=0.0), "Of the cam, for which the bars are designed."
+    )
 
     def _check(self) -> None:
         self.angle  # noqa: B018 - beyond half a turn it is refused at once

@@ -24,7 +24,7 @@ from optlaws.files.reading import check_names
 from optlaws.files.writing import MARK
 from optlaws.lazy import process_lock
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Array, Quantity
+from optlaws.numbers import Array, NumberOrQuantity, Quantity
 from optlaws.numerics.roots import bracketed_roots
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ class CuttingOptions(TypedDict, total=False):
 class Cutting(Declared, title="a file for cutting"):
     """The checked options of a file for cutting; `about` is what the file says of itself."""
 
-    tolerance: Quantity = entry(
+    tolerance: NumberOrQuantity = entry(
         Measured("length", above=0.0),
         "How far polygon, arcs or spline may be from the curve.",
         default="1 um",
@@ -60,7 +60,7 @@ class Cutting(Declared, title="a file for cutting"):
     decimals: int = entry(DECIMALS, "Of a millimetre.", default=6)
     points: int = entry(POINTS, "Of a table over the whole turn, the last being the first again.", default=721)
     degree: int = entry(Whole(min(DEGREES), max(DEGREES)), "That of splines, 3 or 5.", default=3)
-    feed: Quantity | None = entry(
+    feed: NumberOrQuantity | None = entry(
         Measured("velocity", above=0.0),
         "Of the tool; the file has none unless given.",
         default=None,
@@ -369,7 +369,7 @@ class CutFile(Cutting, title="a file"):
     curve: CutCurve | None = entry(
         Choice(*CURVES), "The profile, or the path of a cutter with a radius, unless given.", default=None
     )
-    cutter_radius: Quantity | None = entry(
+    cutter_radius: NumberOrQuantity | None = entry(
         Measured("length", above=0.0), "Of the cutter whose path the file has.", default=None, example="10 mm"
     )
 

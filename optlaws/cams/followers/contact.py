@@ -17,7 +17,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Quantity
+from optlaws.numbers import NumberOrQuantity
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair, Term
 from optlaws.synthesis.functionals.makers import peak
@@ -95,10 +95,10 @@ class Friction(Declared, title="friction"):
     guide: float = entry(
         Number(least=0.0), "The coefficient of a slide in its guide.", default=0.0, label="in the guide", example=0.1
     )
-    overhang: Quantity | None = entry(
+    overhang: NumberOrQuantity | None = entry(
         Measured("length", least=0.0), "From where the cam touches to the guide.", default=None, example="80 mm"
     )
-    length: Quantity | None = entry(
+    length: NumberOrQuantity | None = entry(
         Measured("length", above=0.0), "Of the guide.", default=None, label="guide length", example="120 mm"
     )
 

@@ -35,7 +35,7 @@ from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Array, Quantity
+from optlaws.numbers import Array, NumberOrQuantity, Quantity
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.peaks import is_kept
 from optlaws.numerics.taylor import Jet, Pair, Term
@@ -46,7 +46,7 @@ from optlaws.tolerances import CAM_FEASIBILITY
 class FlatFollower(CamFollower, title="a flat follower"):
     """A follower with a flat face."""
 
-    face_length: Quantity | None = entry(
+    face_length: NumberOrQuantity | None = entry(
         Measured("length", above=0.0),
         "Of the face: no less than the way of the contact along it, which is reported beside it.",
         default=None,
@@ -212,7 +212,7 @@ class InclinedFlat(FlatFollower, kind="inclined flat"):
     'length'
     """
 
-    inclination: Quantity = entry(
+    inclination: NumberOrQuantity = entry(
         Measured("angle"),
         "Between the face and the square of the way, above 0 where the face rises to the side to which the cam's top "
         "moves when it turns clockwise; less than 90 deg.",
@@ -250,10 +250,10 @@ class OscillatingFlat(FlatFollower, kind="oscillating flat"):
     'angle'
     """
 
-    pivot_distance: Quantity = entry(
+    pivot_distance: NumberOrQuantity = entry(
         Measured("length", above=0.0), "From the cam's centre to the pivot.", example="120 mm"
     )
-    face_offset: Quantity = entry(
+    face_offset: NumberOrQuantity = entry(
         Measured("length"),
         "From the pivot to the line of the face; above 0 where the face lies away from the cam.",
         default="0 mm",

@@ -30,7 +30,7 @@ from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import Exact, quantity
-from optlaws.numbers import Array, Quantity
+from optlaws.numbers import Array, NumberOrQuantity, Quantity
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair, Term
 
@@ -153,8 +153,8 @@ class TranslatingRoller(CamFollower, kind="translating roller"):
     'length'
     """
 
-    radius: Quantity = entry(Measured("length", above=0.0), "Radius of the roller.", example="12 mm")
-    offset: Quantity = entry(
+    radius: NumberOrQuantity = entry(Measured("length", above=0.0), "Radius of the roller.", example="12 mm")
+    offset: NumberOrQuantity = entry(
         Measured("length"),
         "Distance of the slide's way from the cam's centre; above 0 on the side to which the cam's top moves when it "
         "turns clockwise, so that with a cam that turns counterclockwise it lessens the pressure angle of the rise.",
@@ -241,9 +241,11 @@ class OscillatingRoller(CamFollower, kind="oscillating roller"):
     'angle'
     """
 
-    radius: Quantity = entry(Measured("length", above=0.0), "Radius of the roller.", example="14 mm")
-    arm: Quantity = entry(Measured("length", above=0.0), "From the pivot to the roller's centre.", example="110 mm")
-    pivot_distance: Quantity = entry(
+    radius: NumberOrQuantity = entry(Measured("length", above=0.0), "Radius of the roller.", example="14 mm")
+    arm: NumberOrQuantity = entry(
+        Measured("length", above=0.0), "From the pivot to the roller's centre.", example="110 mm"
+    )
+    pivot_distance: NumberOrQuantity = entry(
         Measured("length", above=0.0), "From the cam's centre to the pivot.", example="140 mm"
     )
     axis: ClassVar[str] = "angle"

@@ -306,7 +306,7 @@ class FrontOverTime(Declared, title="a front"):
     minimise: tuple[str, ...] = entry(
         Listed(Text(), least=1, most=6), "What is least, each with a front.", example=["rms acceleration"]
     )
-    longest: Quantity | None = entry(
+    longest: NumberOrQuantity | None = entry(
         Measured("time", above=0.0), "The longest time; twice the least unless given.", default=None, example="0.3 s"
     )
     points: int = entry(_POINTS, "How many there are, each the same share longer than the last.", default=17)

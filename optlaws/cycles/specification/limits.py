@@ -49,15 +49,15 @@ _NO_SIDES = (*OF_WHOLE.values(), Kind.VELOCITY_ALONG, Kind.ACCELERATION_ALONG)
 
 
 def _limit(about: str, *dimensions: str, example: str) -> Any:
-    return entry(Measured(*dimensions, above=0.0), about, default=None, example=example)
+    return entry(Measured(*dimensions, bare=True, above=0.0), about, default=None, example=example)
 
 
 def _sided(of: str, example: str, more: str = "") -> Any:
     """A limit of a derivative: of its magnitude, or its least and its greatest value."""
     dimensions = of, f"angular {of}"
-    sides = Listed(Measured(*dimensions), least=2, most=2)
+    sides, most = Listed(Measured(*dimensions, bare=True), least=2, most=2), Measured(*dimensions, bare=True, above=0.0)
     about = f"The greatest {of}; of two the first is the least value{more}."
-    return entry(Either(Measured(*dimensions, above=0.0), sides, which=is_list), about, default=None, example=example)
+    return entry(Either(most, sides, which=is_list), about, default=None, example=example)
 
 
 _OF_MOTION = {

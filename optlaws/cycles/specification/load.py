@@ -14,7 +14,7 @@ from optlaws.entries.value_types import Measured, Number
 from optlaws.errors import InputError, located
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Quantity, positive
+from optlaws.numbers import NumberOrQuantity, positive
 from optlaws.synthesis.problem.constants import Functional
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ class ElasticFollower(Declared, title="an elastic follower"):
     0.0
     """
 
-    period: Quantity = entry(Measured("time", above=0.0), "Of its free vibration.", example="20 ms")
+    period: NumberOrQuantity = entry(Measured("time", above=0.0), "Of its free vibration.", example="20 ms")
     damping: float = entry(
         Number(least=0.0),
         "Its damping as a share of the critical one, between mass and ground.",
@@ -51,8 +51,8 @@ class ElasticLoad(ElasticFollower, title="a load"):
     {'period': '20 ms', 'mass': '2 kg'}
     """
 
-    mass: Quantity | None = entry(Measured("mass"), "Of a slide, for its force.", default=None, example="2 kg")
-    inertia: Quantity | None = entry(
+    mass: NumberOrQuantity | None = entry(Measured("mass"), "Of a slide, for its force.", default=None, example="2 kg")
+    inertia: NumberOrQuantity | None = entry(
         Measured("moment of inertia"), "Of a table, for its torque.", default=None, example="0.02 kg m^2"
     )
 

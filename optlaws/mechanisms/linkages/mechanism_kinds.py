@@ -27,7 +27,7 @@ from optlaws.formulas.tree import Exponentiation, Formula, Name, Number, number,
 from optlaws.mechanisms.linkages.mechanism import LinkGeometry, Mechanism
 from optlaws.mechanisms.linkages.mechanism_formulas import OverPlace, TableKind, formula_of
 from optlaws.motion.quantities import TURN, either, quantity
-from optlaws.numbers import NumberOrQuantity, Quantity, finite, not_negative
+from optlaws.numbers import NumberOrQuantity, finite, not_negative
 from optlaws.tolerances import WAVE_ROUNDING
 
 GRAVITY = 9.80665
@@ -119,7 +119,7 @@ class Loads(Declared, title="loads"):
         default=0.0,
         example="10 mm",
     )
-    gravity: Quantity | None = entry(
+    gravity: NumberOrQuantity | None = entry(
         Measured("angle"),
         "The direction in which gravity acts in the plane of the mechanism; none unless given.",
         default=None,
