@@ -182,6 +182,17 @@ def test_the_schema_of_plcopen_is_read(tmp_path: Path) -> None:
         read_cycle_table(file)
 
 
+@pytest.mark.parametrize("layout", ROWS)
+def test_errors_in_xml_name_the_line_of_the_file(layout: str, tmp_path: Path) -> None:
+    rows = [ROWS[layout].format(n=i + 1, kind="POLYNOM5", x=x, y=y) for i, (x, y) in enumerate(POINTS)]
+    text = OTHERS[layout].format(points="".join([*rows[:2], rows[2].replace("240.0", "24o.0"), *rows[3:]]))
+    wrong = next(i for i, line in enumerate(text.splitlines(), 1) if "24o.0" in line)
+    file = tmp_path / "cam.xml"
+    file.write_text(text)
+    with pytest.raises(InputError, match=rf"cam\.xml: line {wrong}: '24o.0' is no number"):
+        read_cycle_table(file)
+
+
 #: rows of a cam profile as a controller's project stores them: (0, 0), (40, 20), (100, 25), slopes 1 and 0 at the ends
 GOLDEN = (
     "[2,0,0,0,0,1,0,0,1072693248,0,-1080956027,515396076,1059086925,-755914243],"
@@ -291,6 +302,7 @@ def test_a_file_with_a_line_missing_or_wrong_is_refused_or_says_the_same(name: s
                 read = read_points(file, **units)
             except InputError as error:
                 assert str(file) in str(error)  # noqa: PT017
+                assert re.search(r"lines? \d|holds no points|say which|no joint", str(error))  # noqa: PT017 - of each
                 refused += 1
                 continue
             if len(read.places) < 12:

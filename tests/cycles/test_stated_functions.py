@@ -60,8 +60,10 @@ def test_two_movers_are_lines_and_polynomials_over_a_track(prefix: str, tmp_path
         InputError, match="what runs from the last point, at 1500, to the end of the turn is not stated"
     ):
         read_cycle_table(file, unit="mm", master="mm", turn="1600 mm")
+    file.write_text(movers(prefix).replace("MOTIONPOINTTYPE_MOTION", "MOTIONPOINTTYPE_IGNORE", 1))
+    assert len(read_cycle_table(file, unit="mm", master="mm").places) == 8
     part = read_cycle_table(file, unit="mm", master="mm", rows=3)
-    assert [each.stop for each in part.stretches] == [100.0, 250.0]
+    assert [each.stop for each in part.stretches] == [350.0]  # one polynomial goes on in the next
 
 
 #: as the manual of the ISG kernel prints it (kernel-html en-GB/179241611)

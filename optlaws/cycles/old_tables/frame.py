@@ -17,10 +17,13 @@ _MOST_LOBES = 100
 _WHOLE = 1e-6  # of a turn: by how much the last row may be off its end, as digits leave it
 
 
-def in_order(places: Array, heights: Array, turn: float | None = None) -> tuple[Array, Array]:
+def in_order(
+    places: Array, heights: Array, turn: float | None = None, lines: Sequence[int] = ()
+) -> tuple[Array, Array]:
     """Rows with increasing places: reversed ones are turned round, and of equal ones one is left.
 
-    Rows that begin anywhere in a turn, and go on at its beginning, are those of a turn from the first one on.
+    Rows that begin anywhere in a turn, and go on at its beginning, are those of a turn from the first one on. Errors
+    name the lines of the file where they are known.
 
     Raises
     ------
@@ -35,7 +38,7 @@ def in_order(places: Array, heights: Array, turn: float | None = None) -> tuple[
     [270.0, 350.0, 360.0, 450.0]
     """
     if np.all(np.diff(places) <= 0.0):
-        places, heights = places[::-1], heights[::-1]
+        places, heights, lines = places[::-1], heights[::-1], lines[::-1]
     steps = np.diff(places)
     falls = np.flatnonzero(steps < 0.0)
     if turn is not None and len(falls) == 1 and falls[0] < len(steps) - 1:
@@ -45,16 +48,19 @@ def in_order(places: Array, heights: Array, turn: float | None = None) -> tuple[
             places = np.concatenate([places[: falls[0] + 1], following])
             steps = np.diff(places)
     if np.any(steps < 0.0):
-        row = int(np.argmax(steps < 0.0))
+        row = int(falls[0])
+        where = f"lines {lines[row]} and {lines[row + 1]}" if lines else f"rows {row + 1} and {row + 2} of its points"
         raise InputError(
-            f"the places of a table must increase, and {places[row + 1]:.9g} follows {places[row]:.9g} (rows {row + 1} "
-            f"and {row + 2} of its points): rows says how many count where spare ones follow"
+            f"the places of a table must increase, and {places[row + 1]:.9g} follows {places[row]:.9g} ({where}): mend "
+            "them; rows says how many count where spare ones follow"
         )
     twice = np.flatnonzero(steps == 0.0)
     if np.any(heights[twice] != heights[twice + 1]):
         row = int(twice[np.argmax(heights[twice] != heights[twice + 1])])
+        where = f"lines {lines[row]} and {lines[row + 1]}: " if lines else ""
         raise InputError(
-            f"the place {places[row]:.9g} has two positions, {heights[row]:.9g} and {heights[row + 1]:.9g}"
+            f"{where}the place {places[row]:.9g} has two positions, {heights[row]:.9g} and {heights[row + 1]:.9g}: "
+            "leave one out"
         )
     return np.delete(places, twice + 1), np.delete(heights, twice + 1)
 

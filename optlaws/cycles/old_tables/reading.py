@@ -55,6 +55,7 @@ class CamPoints:
     layout: str
     units: TableUnits
     pieces: tuple[CurvePiece, ...] = ()  #: what runs between the points, where the file states it
+    lines: Sequence[int] = ()  #: where the points stand in the file
 
 
 def points_in(
@@ -76,7 +77,7 @@ def points_in(
     places, heights = size * np.array(points.places), slave * np.array(points.heights)
     pieces = tuple(piece.scaled(size, slave) for piece in points.pieces)
     whole = TableUnits(units.slave, units.master, rate=units.rate)
-    return CamPoints(places, heights, slave * points.digit, points.layout, whole, pieces)
+    return CamPoints(places, heights, slave * points.digit, points.layout, whole, pieces, points.lines)
 
 
 def _about(content: str) -> re.Match[str] | None:

@@ -414,6 +414,7 @@ def table_of(
             pieces = points.pieces[: len(places) - 1]
             table = _of_pieces(pieces, places, heights, units, length, step, tolerance, lobes)
         else:
+            places, heights = in_order(places, heights, whole_turn(length, units.master), points.lines[:rows])
             table = split_table(
                 places, heights, turn=length, advance=step, lobes=lobes, tolerance=tolerance, unit=units.slave,
                 master=units.master, digit=points.digit,
@@ -521,7 +522,7 @@ def split_table(
     if places.shape != heights.shape or places.ndim != 1 or len(places) < FEWEST_POINTS:
         raise InputError(
             f"a cycle's table has at least {FEWEST_POINTS} points, as many places as positions, got {places.size} "
-            f"and {heights.size}"
+            f"and {heights.size}: a file of fewer has to state what runs between them, by functions or derivatives"
         )
     if not np.all(np.isfinite(places)) or not np.all(np.isfinite(heights)):
         raise InputError("the places and positions of a table must be finite numbers")

@@ -17,7 +17,7 @@ from optlaws.files.writing import MARK
 from optlaws.laws.catalogue.tables.controller_files import decoded
 from optlaws.laws.catalogue.tables.curve_pieces import pieces_between
 from optlaws.laws.catalogue.tables.table_points import TablePoints, resolution_of
-from optlaws.laws.catalogue.tables.tokens import NUMBER, cells_of, no_number, uncommented
+from optlaws.laws.catalogue.tables.tokens import NUMBER, TextCell, cells_of, no_number, uncommented
 from optlaws.numbers import Array
 
 #: bytes of a table
@@ -27,7 +27,7 @@ _RATE = 0.25  # velocities that are so near the slopes of the positions are by t
 _SLOPE = 0.5  # of the greatest velocity: one that is farther from the slope of the positions is wrong
 #: tables whose numbers count so many degrees or millimetres
 ISG, _ISG_DIGIT = "ISG and TwinCAT CNC", 1e-4
-_HEADER, _BLANK = re.compile(r"^\s*([A-Za-z][\w \t-]*?)\s*=\s*(\S+)", re.MULTILINE), re.compile(r"\s")
+_HEADER, _BLANK = re.compile(r"([A-Za-z][\w \t-]*?)\s*=\s*(\S+)"), re.compile(r"\s")
 _KEYWORD = re.compile(r"[\s;]")
 _SEPARATORS = (";", "\t", ",", "|", None)
 #: a heading up to its unit
@@ -142,27 +142,31 @@ def rate_of(places: Array, heights: Array, velocities: Array, lines: Sequence[in
 
 def _with_keywords(points: TablePoints, text: str, count: int) -> TablePoints:
     """The points of a layout with keywords around its columns, or the functions between them where it states these."""
-    lines = [line.strip() for line in text.splitlines() if line.strip()]
-    keywords = {_KEYWORD.split(line)[0].casefold() for line in lines}
-    stated = lines[0] if lines[0].isdigit() else None
+    lines = [TextCell(line.strip(), number) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
+    keywords = {_KEYWORD.split(line.text)[0].casefold() for line in lines}
+    stated = lines[0] if lines[0].text.isdigit() else None
     layout = "SEW MOVI-C" if stated else points.layout
     for begin, end, name in (("TABLE_BEGIN", "TABLE_END", "Kollmorgen KAS"), ("Begintable", "EndTable", ISG)):
         if begin.casefold() in keywords:
             layout = name
             if end.casefold() not in keywords:
-                raise InputError(f"the table has no {end}: its end is missing")
-    header = (
-        {_BLANK.sub("", match[1]).casefold(): match[2] for match in _HEADER.finditer(text)} if layout == ISG else {}
-    )
+                raise InputError(f"line {lines[-1].line}: the table has no {end}: its end is missing")
+    header = {}
+    for line in lines if layout == ISG else []:
+        if match := _HEADER.match(line.text):
+            header[_BLANK.sub("", match[1]).casefold()] = TextCell(match[2], line.line)
     stated = header.get("lines", stated)
-    if stated is not None and int(stated) != count:
-        raise InputError(f"the file states {stated} points and contains {count}: lines are missing or superfluous")
+    if stated is not None and stated.number() != count:
+        raise InputError(
+            f"line {stated.line}: the file states {stated.text} points and contains {count}: lines are missing or "
+            "superfluous"
+        )
     if layout != ISG:
         return replace(points, layout=layout)
     places, heights = ([_ISG_DIGIT * value for value in row] for row in (points.places, points.heights))
     points = replace(points, layout=layout, places=places, heights=heights, digit=_ISG_DIGIT * points.digit)
-    kind = header.get("functiontype")
-    return _of_lines_and_polynomials(points, first_is_line=kind == "5") if kind in {"4", "5"} else points
+    kind = header["functiontype"].number() if "functiontype" in header else None
+    return _of_lines_and_polynomials(points, first_is_line=kind == 5) if kind in {4, 5} else points
 
 
 def _of_lines_and_polynomials(points: TablePoints, *, first_is_line: bool) -> TablePoints:

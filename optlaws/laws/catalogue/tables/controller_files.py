@@ -8,6 +8,9 @@ from contextlib import AbstractContextManager
 from math import isfinite
 from struct import pack, unpack
 from xml.etree import ElementTree as ET
+from xml.sax import SAXParseException, parseString
+from xml.sax.handler import ContentHandler
+from xml.sax.xmlreader import AttributesImpl
 
 import numpy as np
 
@@ -16,7 +19,7 @@ from optlaws.errors import InputError, located
 from optlaws.laws.catalogue.tables.curve_pieces import CurvePiece, degree_of, of_profile, pieces_between, powers
 from optlaws.laws.catalogue.tables.layouts import LAYOUTS, FieldLayout
 from optlaws.laws.catalogue.tables.table_points import TablePoints, resolution_of
-from optlaws.laws.catalogue.tables.tokens import TextCell, uncommented
+from optlaws.laws.catalogue.tables.tokens import TextCell, line_of, uncommented
 
 #: a field with its value, and the number of the element that it is of where that is beside it
 _FIELD = re.compile(r"(?:\[(\d+)\]\s*\.\s*)?\b([A-Za-z_]\w*)\s*:=\s*([^\s,;:()\[\]{}=]+)")
@@ -51,7 +54,7 @@ def decoded(content: str, cam: str | None = None) -> TablePoints | None:
     text = uncommented(content)
     if "joint_names:" in text:
         text = _of_yaml(text, cam)
-    fields = [(m[1], m[2].lower(), TextCell(m[3], _line(text, m.start(2)))) for m in _FIELD.finditer(text)]
+    fields = [(m[1], m[2].lower(), TextCell(m[3], line_of(text, m.start(2)))) for m in _FIELD.finditer(text)]
     names = {name for _, name, _ in fields}
     layout = max(
         (layout for layout in LAYOUTS if layout.needed <= names),
@@ -62,54 +65,86 @@ def decoded(content: str, cam: str | None = None) -> TablePoints | None:
         records = list(_records(layout, fields))
         if len(records) > 1:
             _check_count(text, len(records))
-            return _of_records(layout, records)
+            skipped = [record.pop("skip", TextCell("", 0)).text.upper() for record in records]
+            pairs = zip(records, skipped, strict=True)
+            return _of_records(layout, [record for record, skip in pairs if not skip.endswith(("IGNORE", "TRUE"))])
     return _of_arrays(text)
 
 
-def _line(text: str, place: int) -> int:
-    return text.count("\n", 0, place) + 1
+class _Tree(ContentHandler):
+    """Elements of XML by their names without prefixes, with the lines where they and their texts begin."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[ET.Element] = []
+        self.elements: list[ET.Element] = []
+        self.lines: dict[ET.Element, int] = {}
+
+    def _here(self) -> int:
+        return int(self._locator.getLineNumber())  # type: ignore[attr-defined]  # expat sets it
+
+    def startElement(self, name: str, attrs: AttributesImpl) -> None:
+        element = ET.Element(name.rpartition(":")[2], dict(attrs))
+        if self.open:
+            self.open[-1].append(element)
+        self.open.append(element)
+        self.elements.append(element)
+        self.lines[element] = self._here()
+
+    def characters(self, content: str) -> None:
+        element = self.open[-1]
+        if not element.text and content.strip():
+            self.lines[element] = self._here()
+        element.text = (element.text or "") + content
+
+    def endElement(self, name: str) -> None:  # noqa: ARG002 - a name of SAX
+        self.open.pop()
+
+    def text(self, part: ET.Element) -> str:
+        """The fields in an element and the texts that stand in it, each on its line of the file."""
+        lines, index = list[str](), ""
+        for element in part.iter():
+            if element.tag == "Element":
+                index = element.attrib.get("Index", "")
+            value, inner = element.attrib.get("Value"), next(iter(element), None)
+            shown = ""
+            if element.tag == "DataValueMember" and value is not None:
+                shown = f"{index}.{element.attrib.get('Name', '')} := {value}"
+            elif element.tag == "value" and inner is not None and inner.tag == "simpleValue":
+                shown = f"{element.attrib.get('member', '')} := {inner.attrib.get('value', '')}"
+            elif element.tag not in {"DataValueMember", "simpleValue"} and (element.text or "").strip():
+                shown = str(element.text)
+            if shown:
+                lines += [""] * (self.lines[element] - len(lines))
+                first, *others = shown.split("\n")
+                lines[-1] += f"  {first}"
+                lines += others
+        return "\n".join(lines)
 
 
 def _of_xml(content: str, cam: str | None) -> str:
     """The fields and the programs in XML as text: of one tag where it is a project with several cams."""
     if "<!ENTITY" in content:
         raise InputError("it is XML with entities of its own, which are not read")
+    tree = _Tree()
     try:
-        tree = ET.fromstring(content)  # noqa: S314 - it has no entities of its own
-    except ET.ParseError as error:
-        raise InputError(f"it is no XML that can be read: {error}") from None
-    for element in tree.iter():
-        element.tag = element.tag.rpartition("}")[2]
+        parseString(content.encode(), tree)  # noqa: S317 - it has no entities of its own
+    except SAXParseException as error:
+        raise InputError(f"it is no XML that can be read: {error.getMessage()}, line {error.getLineNumber()}") from None
     tags = {
         element.attrib.get("Name", ""): element
-        for element in tree.iter()
+        for element in tree.elements
         if element.tag in {"Tag", "LocalTag"} and element.attrib.get("DataType") in _KINDS_OF_CAM
     }
     if not tags:
-        return "\n".join(_lines_of(tree))
+        return tree.text(tree.elements[0])
     if cam is None and len(tags) > 1:
         raise InputError(f"it has several cams, say which: {', '.join(tags)}")
     if cam is not None and cam not in tags:
         raise InputError(f"it has no cam {shortened(cam)}; it has {', '.join(tags)}")
     tag = tags[next(iter(tags)) if cam is None else cam]
     packed = [part for part in tag.iter("Data") if part.attrib.get("Format") == "L5K" and (part.text or "").strip()]
-    return f"cam := {packed[0].text};" if packed else "\n".join(_lines_of(tag))
-
-
-def _lines_of(tree: ET.Element) -> Iterator[str]:
-    """Fields of decorated data and of values by the schema of PLCopen, and texts that stand in elements."""
-    index = ""
-    for element in tree.iter():
-        if element.tag == "Element":
-            index = element.attrib.get("Index", "")
-        value = element.attrib.get("Value")
-        inner = next(iter(element), None)
-        if element.tag == "DataValueMember" and value is not None:
-            yield f"{index}.{element.attrib.get('Name', '')} := {value}"
-        elif element.tag == "value" and inner is not None and inner.tag == "simpleValue":
-            yield f"{element.attrib.get('member', '')} := {inner.attrib.get('value', '')}"
-        elif element.tag not in {"DataValueMember", "simpleValue"} and (element.text or "").strip():
-            yield str(element.text)
+    return "\n" * (tree.lines[packed[0]] - 1) + f"cam := {packed[0].text};" if packed else tree.text(tag)
 
 
 def _of_yaml(text: str, cam: str | None) -> str:
@@ -117,8 +152,10 @@ def _of_yaml(text: str, cam: str | None) -> str:
     joints = [name.strip("\"' ") for name in re.findall(r"^\s*-\s*([\"']?[^\s:\[{]+)\s*$", text, re.MULTILINE)]
     inline = re.search(r"joint_names:\s*\[([^\]]*)\]", text)
     joints = [name.strip("\"' ") for name in inline[1].split(",")] if inline else joints
+    if not joints:
+        raise InputError("joint_names: it names no joint")
     if cam is None and len(joints) != 1:
-        raise InputError(f"it has several joints, say which: {', '.join(joints)}")
+        raise InputError(f"it has several joints, say which as the cam: {', '.join(joints)}")
     if cam is not None and cam not in joints:
         raise InputError(f"it has no joint {shortened(cam)}; it has {', '.join(joints)}")
     place = 0 if cam is None else joints.index(cam)
@@ -126,7 +163,7 @@ def _of_yaml(text: str, cam: str | None) -> str:
     def of_joint(match: re.Match[str]) -> str:
         cells = match[2].split(",")
         if len(cells) != len(joints):
-            raise InputError(f"line {_line(text, match.start())}: {len(cells)} {match[1]} of {len(joints)} joints")
+            raise InputError(f"line {line_of(text, match.start())}: {len(cells)} {match[1]} of {len(joints)} joints")
         return f"{match[1]} := {cells[place].strip()}"
 
     # digits of the seconds and of the nanoseconds, so that none is lost
@@ -157,8 +194,8 @@ def _records(layout: FieldLayout, fields: Sequence[tuple[str | None, str, TextCe
 
 def _check_count(text: str, count: int) -> None:
     """Refuse a file whose number of points differs from its stated number."""
-    stated = [(int(match[1]), _line(text, match.start())) for match in _COUNT.finditer(text)]
-    stated += [(int(match[2]) - int(match[1]) + 1, _line(text, match.start())) for match in _BOUNDS.finditer(text)]
+    stated = [(int(match[1]), line_of(text, match.start())) for match in _COUNT.finditer(text)]
+    stated += [(int(match[2]) - int(match[1]) + 1, line_of(text, match.start())) for match in _BOUNDS.finditer(text)]
     for number, line in stated:
         if number != count:
             raise InputError(
@@ -238,7 +275,7 @@ def _of_arrays(text: str) -> TablePoints | None:
     arrays = []
     for match in _ARRAY.finditer(text):
         if (stop := _closed(text, match.end())) is None:
-            raise InputError(f"line {_line(text, match.end())}: an array does not end")
+            raise InputError(f"line {line_of(text, match.end())}: an array does not end")
         arrays.append((match[1], match.end(), text[match.end() : stop]))
     named = {name: item for item in arrays for name in ("breaks", "coefficients") if re.search(rf"{name}\b", item[0])}
     if len(named) == 2:
@@ -285,7 +322,7 @@ def _closed(text: str, start: int) -> int | None:
 def _rows(text: str, start: int, body: str) -> Iterator[list[TextCell]]:
     for match in _INNER.finditer(body):
         yield [
-            TextCell(cell[0], _line(text, start + match.start(1) + cell.start()))
+            TextCell(cell[0], line_of(text, start + match.start(1) + cell.start()))
             for cell in re.finditer(r"[^\s,()]+", match[1])
         ]
 
@@ -344,7 +381,7 @@ def _of_source(text: str, named: dict[str, tuple[str, int, str]]) -> TablePoints
         sizes = [int(size) for size in re.findall(r"\[(\d+)\]", head)]
         stated = int(bounds[2]) - int(bounds[1]) + 1 if bounds else int(np.prod(sizes)) if sizes else None
         if stated is not None and stated != len(cells[name]):
-            line = _line(text, start)
+            line = line_of(text, start)
             raise InputError(f"line {line}: {name} are stated as {stated} numbers and are {len(cells[name])}")
     breaks, flat = ([each.number(suffix="fF") for each in cells[name]] for name in ("breaks", "coefficients"))
     if len(breaks) < 2 or len(flat) % (len(breaks) - 1):

@@ -12,7 +12,8 @@ class FieldLayout:
     """Fields of the structure of a controller, by their contents.
 
     `fields` says what a field holds and its name: x, y, v, a, j of points; x0, y0, ... and x1, y1, ... of the ends of a
-    piece; c0, c1, ... of powers counted from where a piece begins; "type" of what runs after a point.
+    piece; c0, c1, ... of powers counted from where a piece begins; "type" of what runs after a point, "skip" of
+    whether that is ignored.
     """
 
     name: str
@@ -29,7 +30,7 @@ class FieldLayout:
     @cached_property
     def needed(self) -> frozenset[str]:
         """Names of the fields without which it is another layout."""
-        optional = {"v", "a", "j", "j0", "type"}
+        optional = {"v", "a", "j", "j0", "type", "skip"}
         return frozenset(name for name, role in self.roles.items() if role not in optional)
 
 
@@ -70,12 +71,13 @@ LAYOUTS = (
     ),
     FieldLayout(
         "TwinCAT MC_MotionFunctionPoint",
-        "x=MasterPos y=SlavePos v=SlaveVelo a=SlaveAcc j=SlaveJerk type=FunctionType",
+        "x=MasterPos y=SlavePos v=SlaveVelo a=SlaveAcc j=SlaveJerk type=FunctionType skip=PointType",
         _NC2,
     ),
     FieldLayout(
         "TwinCAT MotionFunctionPoint",
-        "x=MasterPosition y=SlavePosition v=SlaveVelocity a=SlaveAcceleration j=SlaveJerk type=FunctionType",
+        "x=MasterPosition y=SlavePosition v=SlaveVelocity a=SlaveAcceleration j=SlaveJerk type=FunctionType "
+        "skip=Ignored",
         _MC3,
     ),
     FieldLayout(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import re
+from bisect import bisect_right
+from functools import lru_cache
 from math import isfinite
 from typing import NamedTuple
 
@@ -52,6 +54,20 @@ def uncommented(content: str) -> str:
     'Lines = 2\nBegintable\n0 0  \nv := #Ignore; \n'
     """
     return _COMMENT.sub(lambda match: "\n" * match[0].count("\n") or " " * match[0].startswith(("(*", "/*")), content)
+
+
+def line_of(text: str, place: int) -> int:
+    r"""The line of a text, from 1, in which a place of it is.
+
+    >>> line_of("a\nb\nc", 2)
+    2
+    """
+    return bisect_right(_starts(text), place)
+
+
+@lru_cache(maxsize=1)
+def _starts(text: str) -> list[int]:
+    return [0, *(match.end() for match in re.finditer("\n", text))]
 
 
 def cells_of(line: str, separator: str | None) -> list[str]:
