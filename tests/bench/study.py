@@ -95,8 +95,8 @@ def watched(points: int, degree: int, workers: int) -> Stopwatch:
 PARTS = {
     "programs": ("optlaws.synthesis.method.strategies.interior_points.answer_on_points",),
     "Newton": (
-        "optlaws.synthesis.method.strategies.contacts.newton",
-        "optlaws.synthesis.method.strategies.identified.newton",
+        "optlaws.synthesis.method.contacts.newton",
+        "optlaws.synthesis.method.identified.newton",
     ),
     "proof": ("optlaws.synthesis.search.certify", "optlaws.synthesis.search.lower_bound"),
     "synthesis": ("optlaws.studies.chunk.synthesize", "optlaws.studies.chunk.solved"),

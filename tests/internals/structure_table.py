@@ -17,6 +17,7 @@ from optlaws.synthesis.arrays.newton_steps import structure_of
 from optlaws.synthesis.arrays.programs import between
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
+from optlaws.synthesis.method.contacts import polished
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.stored_structures import (
     _BITS,
@@ -27,7 +28,6 @@ from optlaws.synthesis.method.stored_structures import (
     guess_of,
     key_of,
 )
-from optlaws.synthesis.method.strategies.contacts import polished
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, extreme_velocity, model_of
 from optlaws.synthesis.search import LawSearch

@@ -18,8 +18,8 @@ from optlaws.synthesis.arrays.certification import certification_of
 from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, structure_of
 from optlaws.synthesis.arrays.programs import Path
 from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.method.contacts import polished
 from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.method.strategies.contacts import polished
 from optlaws.tolerances import AT_END, VALUE_ROUNDING
 
 _ASTRAY = 1e-3  # so near to an event no more than this can be broken: where more is, Newton's method went astray

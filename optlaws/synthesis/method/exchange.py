@@ -11,102 +11,26 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
-from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
+from optlaws.synthesis.method.contacts import polished
 from optlaws.synthesis.method.discretised.grids import first_points
 from optlaws.synthesis.method.equations import contradiction, independent
-from optlaws.synthesis.method.strategies.contacts import polished
+from optlaws.synthesis.method.few_families import binding_few
 from optlaws.synthesis.method.strategies.strategy import cutting_plane_loop
 from optlaws.synthesis.method.units import units_of
-from optlaws.synthesis.method.vanishing import at_apex
-from optlaws.tolerances import EXCESS
+from optlaws.synthesis.method.vanishing import at_apex, vanishing
 
 if TYPE_CHECKING:
     from optlaws.synthesis.method.strategies.interior_points import ByInteriorPoints
 
 
-_VANISHED = 1e-13  # amplitudes that are minimised vanish if their sum is less
-
 #: by how much the room of a start exceeds what its base law needs
 _AMPLE = 1.2
-#: fewer families of cones than this are solved together
-_MANY = 50
-#: into how many runs of neighbours they are divided: in a round the one of each that is violated most joins
-_RUNS = 32
-
-
-@dataclass(frozen=True, eq=False)
-class FewFamilies:
-    """Some of the families of a program, by their numbers in ascending order."""
-
-    whole: Program
-    chosen: NDArray[np.intp]
-
-    @kept_property
-    def program(self) -> Program:
-        """The program with these families alone; its least objective is at most that of the whole."""
-        return replace(self.whole, families=tuple(self.whole.families[i] for i in self.chosen))
-
-    def inward(self, state: ActiveSet | None) -> ActiveSet | None:
-        """An active set of the whole program among these families; None where it has contacts in others."""
-        if state is None or not np.isin(state.family, self.chosen).all():
-            return None
-        return replace(state, family=np.searchsorted(self.chosen, state.family).astype(np.intp))
-
-    def outward(self, state: ActiveSet) -> ActiveSet:
-        """An active set in the whole program."""
-        return replace(state, family=self.chosen[state.family])
-
-    def joined_beyond(self, x: Array) -> FewFamilies | None:
-        """These families and the most violated ones of each run, with their neighbours; None where none is violated."""
-        cones, families = _cones(self.whole)
-        excess = np.array([_excess(family, x) for family in families])
-        excess[np.isin(cones, self.chosen)] = 0.0
-        worst = _greatest_of_runs(excess)
-        worst = worst[excess[worst] > 0.0]
-        if not len(worst):
-            return None
-        around = np.clip(np.concatenate([worst - 1, worst, worst + 1]), 0, len(cones) - 1)
-        return replace(self, chosen=np.union1d(self.chosen, cones[around]))
-
-
-def binding_few(program: Program) -> FewFamilies | None:
-    """The families from which the exchange begins; None where there are not many.
-
-    Of the cones they are those of each run that bind the law of no coordinates most.
-    """
-    cones, families = _cones(program)
-    if len(cones) < _MANY:
-        return None
-    sizes = np.array([float(family.value(np.zeros(program.size), np.zeros(1))[0]) for family in families])
-    others = np.setdiff1d(np.arange(len(program.families)), cones)
-    return FewFamilies(program, np.union1d(others, cones[_greatest_of_runs(sizes)]))
-
-
-def _cones(program: Program) -> tuple[NDArray[np.intp], list[ConeFamily]]:
-    numbered = [(i, family) for i, family in enumerate(program.families) if isinstance(family, ConeFamily)]
-    return np.array([i for i, _ in numbered], dtype=np.intp), [family for _, family in numbered]
-
-
-def _greatest_of_runs(sizes: Array) -> NDArray[np.intp]:
-    runs = np.array_split(np.arange(len(sizes)), _RUNS)
-    return np.array([run[np.argmax(sizes[run])] for run in runs], dtype=np.intp)
-
-
-def _excess(family: ConeFamily, x: Array) -> float:
-    """By how much a cone is violated beyond rounding; 0 where it is not."""
-    right = family.right_side(x)
-    least = right + EXCESS * max(1.0, abs(right))
-    if np.abs(family.series @ np.append(x, 1.0)).sum() <= least:
-        return 0.0
-    return max(float(family.extremes(x)[2].max()) + right - least, 0.0)
-
 
 #: how programs are solved: by what suits their rows, or every one as a nonlinear program of CasADi by IPOPT
 Method: TypeAlias = Literal["auto", "ipopt"]
@@ -310,26 +234,6 @@ def grounded(program: Program) -> Program:
     row = np.append(-program.objective, 0.0)[None, :]
     ground = LinearFamily("objective at least", np.zeros(program.size), DEPTH, (1.0,), (1.0, 1.0), series=row)
     return replace(program, families=(*program.families, ground))
-
-
-def vanishing(program: Program) -> ActiveSet | None:
-    """A law in which all amplitudes that are minimised vanish: many may have none, and then no contact shows one."""
-    minimised = [family for family in program.families if (program.objective * family.slack).any()]
-    cones = [family for family in minimised if isinstance(family, ConeFamily) and family.domain[0] == family.domain[1]]
-    costs = np.flatnonzero(program.objective)
-    bounded = all(sum(cone.slack[i] for cone in cones) for i in costs)
-    if not cones or len(cones) < len(minimised) or not bounded:
-        return None
-    columns = [cone.columns(np.array(cone.domain[:1]))[0, 0] for cone in cones]
-    rows = np.vstack([np.array([column.real, column.imag]) for column in columns])
-    conditions = np.concatenate([rows[:, :-1], program.equalities])
-    right = np.concatenate([-rows[:, -1], program.right])
-    # what is minimised is to be nothing
-    conditions[:, costs] = 0.0
-    x = np.linalg.lstsq(conditions, right, rcond=None)[0]
-    if np.abs(conditions @ x - right).max() > _VANISHED or program.violation(x) > EXCESS:
-        return None
-    return of_variables(program, x)
 
 
 def of_variables(program: Program, x: Array) -> ActiveSet:

@@ -25,11 +25,11 @@ from optlaws.numerics.roots import bisect
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Program
 from optlaws.synthesis.families.names import at_least
+from optlaws.synthesis.method.contacts import polished
 from optlaws.synthesis.method.discretised.grids import first_points
 from optlaws.synthesis.method.discretised.linear import vertex_on_points
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.norm_lower_bounds import along_directions
-from optlaws.synthesis.method.strategies.contacts import polished
 from optlaws.synthesis.problem.constants import B, Functional, RootMeanSquare
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem

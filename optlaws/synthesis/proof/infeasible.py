@@ -17,7 +17,7 @@ from optlaws.synthesis.method.discretised.grids import first_points, with_extrem
 from optlaws.synthesis.method.discretised.linear import vertex_on_points
 from optlaws.synthesis.method.equations import contradiction
 from optlaws.synthesis.method.exchange import DEPTH, Outcome, grounded, solve
-from optlaws.synthesis.method.strategies.identified import as_answered
+from optlaws.synthesis.method.identified import as_answered
 from optlaws.synthesis.method.strategies.interior_points import answer_on_points
 from optlaws.synthesis.problem.constants import C, Functional
 from optlaws.synthesis.problem.problem import Problem

@@ -1,1 +1,1 @@
-"""Strategies of the cutting-plane loop: Newton's method on contacts, vertices, interior points, quadratic programs."""
+"""Strategies of the cutting-plane loop: vertices, interior points, quadratic programs."""

@@ -20,7 +20,7 @@ from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.synthesis.method.discretised.conic import INFEASIBLE, conic, of_cones, optimum_on_points
 from optlaws.synthesis.method.discretised.grids import with_extrema
 from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
-from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
+from optlaws.synthesis.method.identified import as_answered, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
 from optlaws.synthesis.method.strategies.vertices import ByVertices
 from optlaws.synthesis.method.units import ProgramUnits, units_near

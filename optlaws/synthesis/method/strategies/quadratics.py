@@ -27,7 +27,7 @@ from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.synthesis.method.discretised.grids import with_extrema
 from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
-from optlaws.synthesis.method.strategies.identified import as_answered, optimum_near
+from optlaws.synthesis.method.identified import as_answered, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
 from optlaws.tolerances import EXCESS, STEP_SETTLED
 

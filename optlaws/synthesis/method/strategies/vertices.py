@@ -19,7 +19,7 @@ from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.synthesis.method.discretised.conic import conic, optimum_on_points
 from optlaws.synthesis.method.discretised.grids import with_extrema
 from optlaws.synthesis.method.discretised.linear import LinearTable, vertex_on_points
-from optlaws.synthesis.method.strategies.identified import of_vertex, optimum_near
+from optlaws.synthesis.method.identified import of_vertex, optimum_near
 from optlaws.synthesis.method.strategies.strategy import Strategy
 from optlaws.tolerances import EXCESS
 

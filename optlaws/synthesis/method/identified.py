@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet, Contact
 from optlaws.synthesis.families.family import ConstraintFamily, Points, ProductFamily, Program
+from optlaws.synthesis.method.contacts import completed, polished
 from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.synthesis.method.discretised.linear import sharpened
 from optlaws.synthesis.method.newton import newton
-from optlaws.synthesis.method.strategies.contacts import completed, polished
 from optlaws.tolerances import BOUND_FEASIBILITY, SAME_PLACE
 
 _SAME_HEIGHT = 1e-9  # what an extremum's residual may be below that of a point on its hill: rounding of a series
