@@ -10,7 +10,7 @@ import pytest
 
 from optlaws import InputError, catalogue, read_cycle_table
 from tests.exports.samples import press
-from tests.internals.cycles import read_points
+from tests.internals.cycles import points_in, read_points
 from tests.internals.exports import FORMATS, Export
 
 #: formats of points alone, by which laws are known again
@@ -358,3 +358,44 @@ def test_a_law_stays_where_none_within_the_tolerance_is_better(tmp_path: Path) -
     (tmp_path / "cam.csv").write_text(exported("csv").text)
     old = read_cycle_table(tmp_path / "cam.csv")
     assert [part.law for part in old.bettered(1e-7, degree=5).moves] == ["modified sine"] * 2
+
+
+TOKENS = [
+    *"[](){};,|#<>\n\t\0xe+.=",
+    ":=",
+    "//",
+    "(*",
+    "*)",
+    "",
+    "0",
+    "-1",
+    "nan",
+    "inf",
+    "1e999",
+    "9" * 40,
+    "1_0",
+    "16#F",
+]
+COUNTS = [12, pytest.param(400, marks=pytest.mark.long)]
+
+
+@pytest.mark.sample(10)
+@pytest.mark.parametrize("count", COUNTS)
+@pytest.mark.parametrize("name", sorted(FORMATS))
+def test_whatever_a_file_holds_it_is_read_or_refused(name: str, count: int) -> None:
+    """Words of a file that are left out, doubled, exchanged or replaced by what a file may hold anywhere."""
+    rng, text = np.random.default_rng(count), exported(name).text
+    for _ in range(count):
+        damaged = text
+        for _ in range(rng.integers(1, 4)):
+            words = [match.span() for match in re.finditer(r"[\w.+-]+|\S", damaged)]
+            (start, stop), (low, high) = (words[i] for i in rng.integers(len(words), size=2))
+            word, other, token = damaged[start:stop], damaged[low:high], TOKENS[rng.integers(len(TOKENS))]
+            damaged = damaged[:start] + ["", 2 * word, other, token][rng.integers(4)] + damaged[stop:]
+        try:
+            read = points_in(damaged, Path(name), unit="mm")
+        except InputError as error:
+            assert name in str(error)  # noqa: PT017 - of each
+            continue
+        assert np.all(np.isfinite(read.places))
+        assert np.all(np.isfinite(read.heights))

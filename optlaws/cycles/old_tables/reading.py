@@ -22,15 +22,16 @@ _WHOLE_TURN = 1e-6  # of a turn: a master without a unit whose length is so near
 #: units as headings write them
 _UNITS = {"degree": "deg", "degrees": "deg", "grad": "deg", "°": "deg", "sec": "s", "turns": "turn", "revs": "rev"}
 _WORD = re.compile(r"°|[A-Za-zµ]+")
+_NUMBER = r"\d+(?:\.\d*)?(?:[eE][+-]?\d+)?"
 #: units of places and heights in the comments that optlaws writes
 _ABOUT = (
     re.compile(
-        r"master in (?P<master>\S+) from \S+ to [^\s,]+(?:, (?P<rate>[\d.e+-]+) \S+/s)?, slave in (?P<slave>[^\s;]+)"
+        rf"master in (?P<master>\S+) from \S+ to [^\s,]+(?:, (?P<rate>{_NUMBER}) \S+/s)?, slave in (?P<slave>[^\s;]+)"
     ),
     re.compile(r"y\(x\) in (?P<slave>\S+) for x from \S+ to \S+ (?P<master>[^\s:]+):"),
 )
-_RATE = re.compile(r"the master goes (\d[\d.e+-]*) \S+/s")
-_FACTOR = re.compile(r"\s*([\d.]+(?:[eE][+-]?\d+)?)\s*(\D.*)")
+_RATE = re.compile(rf"the master goes ({_NUMBER}) \S+/s")
+_FACTOR = re.compile(rf"\s*({_NUMBER}|\.\d+)\s*(\D.*)")
 #: masters without a unit, by their length
 _TURNS = {360.0: "deg", 1.0: "turn", 2.0 * np.pi: "rad"}
 

@@ -307,7 +307,7 @@ class OldTable:
         low, high = self.peaks[nu - 1]
         if low == inf:
             return sentence("{} without bound", QUANTITIES[nu])
-        if low == high:
+        if high - low <= AGREEMENT * high:
             return sentence("{} {}", QUANTITIES[nu], Amount(low, self.unit_of(nu), 4))
         least, most = (Amount(value, self.unit_of(nu), 4) for value in (low, high))
         if high == inf:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from math import isfinite
 from pathlib import Path
 from typing import NamedTuple
 
@@ -94,8 +95,10 @@ def points_of(
         raise InputError(f"{file} has columns of numbers, and no cam {shortened(cam)}: choose two by columns")
     lines, headings = _lines_of(text, str(file))
     chosen = _chosen(columns, headings, lines[0], str(file), most, written_by_optlaws=MARK in text)
-    while not any(lines[-1].numbers(chosen)):
+    while lines and not any(lines[-1].numbers(chosen)):
         lines.pop()
+    if not lines:
+        raise InputError(f"{file} has no numbers in the columns {', '.join(str(i + 1) for i in chosen)}")
     matches = _checked(lines, chosen, str(file))
     texts = [[str(match[1]).replace(",", ".") for match in row] for row in matches]
     distinct = [i for i, row in enumerate(texts) if not i or row != texts[i - 1]]
@@ -276,6 +279,8 @@ def _checked(lines: list[_Line], columns: tuple[int, ...], name: str) -> list[li
                 f"{where}: {len(line.numeric)} numbers, got {cells}, where the line of the first point has {width}: "
                 "write numbers without separators of thousands, and one point on a line"
             )
+        if not all(isfinite(float(match[1].replace(",", "."))) for match in row):
+            raise InputError(f"{where}: {cells} holds no finite numbers: mend the line")
         if rows and [match[2] for match in row] != [match[2] for match in rows[0]]:
             raise InputError(f"{where}: {cells} is in other units than the line above: mend the line")
         rows.append(row)

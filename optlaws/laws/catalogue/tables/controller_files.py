@@ -321,10 +321,9 @@ def _closed(text: str, start: int) -> int | None:
 
 def _rows(text: str, start: int, body: str) -> Iterator[list[TextCell]]:
     for match in _INNER.finditer(body):
-        yield [
-            TextCell(cell[0], line_of(text, start + match.start(1) + cell.start()))
-            for cell in re.finditer(r"[^\s,()]+", match[1])
-        ]
+        cells = re.finditer(r"[^\s,()]+", match[1])
+        if row := [TextCell(cell[0], line_of(text, start + match.start(1) + cell.start())) for cell in cells]:
+            yield row
 
 
 def _pairs(head: str, flat: list[TextCell]) -> list[list[TextCell]]:

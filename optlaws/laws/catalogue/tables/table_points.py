@@ -58,4 +58,4 @@ def resolution_of(texts: Sequence[str], values: Sequence[float]) -> float:
 
 def _last_digit(text: str) -> float:
     digits, _, exponent = text.replace(",", ".").lower().partition("e")
-    return 10.0 ** (int(exponent or 0) - len(digits.partition(".")[2]))
+    return float(f"1e{int(exponent or 0) - len(digits.partition('.')[2])}")
