@@ -14,7 +14,7 @@ from optlaws.cycles.specification.limits import MOTOR
 from optlaws.cycles.specification.programme import period_of
 from optlaws.cycles.specified import Specification
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
-from optlaws.entries.value_types import Listed, Text
+from optlaws.entries.value_types import Listed, Number, Text
 from optlaws.errors import InputError, located
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
@@ -22,6 +22,7 @@ from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import TURN, quantity
 from optlaws.numbers import Quantity
 from optlaws.synthesis.solution import Solution
+from optlaws.tolerances import CYCLE_OPTIMALITY
 
 if TYPE_CHECKING:
     from optlaws.cycles.fastest_cycle import FastestCycle
@@ -300,8 +301,6 @@ class Plan(Solved, CycleAnswers, Declared, title="a plan"):
 
     Parameters
     ----------
-    bound
-        The lower bound of laws of the search space; by the solutions unless given.
     checked
         Whether all laws are known to keep the limits; else the status says whether they do, as of a plan that is read.
 
@@ -321,7 +320,12 @@ class Plan(Solved, CycleAnswers, Declared, title="a plan"):
     )
     _: KW_ONLY
     chosen: Sequence[str] = entry(Listed(Text()), "The selection among several optimal laws, in words.", default=())
-    bound: float | None = field(default=None, compare=False)
+    bound: float | None = entry(
+        Number(),
+        "The lower bound of laws of the search space where it does not follow from the solutions: of laws that share a "
+        "limit of the whole cycle, or were selected among several optimal ones.",
+        default=None,
+    )
     checked: bool = field(default=False, compare=False)
 
     def _check(self) -> None:
@@ -336,7 +340,14 @@ class Plan(Solved, CycleAnswers, Declared, title="a plan"):
             known = span_problem(span, cycle.in_si)
             if solution.problem.boundary != known.boundary:
                 return f"{span.where}: its solution has other ends than its joints"
+        if self.bound is not None and self.bound > self.objective * (1.0 + CYCLE_OPTIMALITY):
+            return f"its lower bound {self.bound!r} is above its objective {self.objective!r}"
         return "; ".join(f"{taken} is beyond its limit" for taken in self.limits_taken if not taken.is_kept)
+
+    def of_its_problems(self) -> bool:
+        """Whether its solutions are of the problems of its cycle, so that their bounds are bounds of the cycle."""
+        cycle = self.specification
+        return all(solution.problem == span_problem(span, cycle.in_si) for span, _, solution in self.laws)
 
     def with_solutions(self, solutions: Sequence[Solution]) -> Plan:
         """The plan of the same cycle with other solutions, as `Cycle.with_solutions`."""
@@ -344,7 +355,7 @@ class Plan(Solved, CycleAnswers, Declared, title="a plan"):
 
     def to_dict(self) -> dict[str, Any]:
         """The cycle with its solutions, plain and JSON-able, without the names of their formats."""
-        data = super().to_dict()
+        data = {"solutions": [], **super().to_dict()}
         del data["cycle"]["format"]
         return data
 

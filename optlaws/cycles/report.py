@@ -23,7 +23,7 @@ from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel, times_in
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import MILLI, QUANTITIES, RPM, TURN_DEG, UNITS, Kind
-from optlaws.numbers import Array, chop
+from optlaws.numbers import Array, bounded, chop
 from optlaws.shown.curve_points import refined
 from optlaws.shown.difference import Difference, Differences
 from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Series
@@ -240,12 +240,23 @@ class CycleReport:
             **({} if self.beside is None else self.beside.data),
             "segments": [
                 {"name": peak.name, "start": peak.start, "duration": peak.duration}
-                | {name: peak.peak(nu) for nu, name in enumerate(QUANTITIES) if nu}
+                | {name: bounded(peak.peak(nu)) for nu, name in enumerate(QUANTITIES) if nu}
                 for peak in plan.peaks
             ],
-            "joints": list(plan.joints),
+            "joints": [{name: bounded(value) for name, value in joint.items()} for joint in plan.joints],
             **drive,
         }
+
+    @property
+    def stored(self) -> dict[str, Any]:
+        """The plan with its solutions and proofs, its numbers, and its laws in their places."""
+        laws = [
+            {"start": piece.start, "duration": piece.duration, "offset": piece.offset, "stroke": piece.stroke,
+             "law": piece.law.to_dict()}
+            for piece in self.plan.pieces
+        ]  # fmt: skip
+        plan: Any = self.plan
+        return {**plan.to_dict(), **self.data, "laws": laws}
 
 
 class FastestReport(CycleReport):

@@ -33,6 +33,7 @@ from optlaws.plots.style import figure_of, plot_style
 from optlaws.plots.sweep import sweep_figure
 from optlaws.results import Page, Results
 from optlaws.shown.report import ReportTable
+from optlaws.studies.problem_entries import steady
 
 if TYPE_CHECKING:
     from optlaws.cycles.axes.machine_axes import Axes, Overlap
@@ -91,7 +92,7 @@ def run(results: Results) -> None:
         results.table(f"sweep_{number}", *table)
         figure = sweep_figure(*table, f"{spec.title}: {sweep.axis}")
         page.heading(by).picture(f"sweep_{number}", by, figure).table(*table)
-    facts = {"unit": "SI", "axes": {name: _stored(cycle) for name, cycle in cycles.items()}}
+    facts = {"unit": "SI", "axes": {name: steady(CycleReport(cycle).stored) for name, cycle in cycles.items()}}
     results.data("cycle.json", facts | _beside(cycles, overlap, transitions))
     if fastest:
         results.data("fastest.json", {name: axis.claims() for name, axis in fastest.items()})
@@ -106,16 +107,6 @@ def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
     axes = given if overlap is None else overlap.axes
     data = {name: cycle.report().data for name, cycle in axes.items()}
     return data | _beside(axes, overlap, _transitions(spec.axis, axes, file))
-
-
-def _stored(cycle: Cycle) -> dict[str, Any]:
-    """Facts of a cycle with its laws."""
-    laws = [
-        {"start": piece.start, "duration": piece.duration, "offset": piece.offset, "stroke": piece.stroke,
-         "law": piece.law.to_dict()}
-        for piece in cycle.pieces
-    ]  # fmt: skip
-    return {**cycle.report().data, "laws": laws}
 
 
 def _beside(axes: Axes, overlap: Overlap | None, transitions: Sequence[AxisTransition]) -> dict[str, Any]:

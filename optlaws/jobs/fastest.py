@@ -25,7 +25,7 @@ from optlaws.motion.quantities import UNITS
 from optlaws.numbers import Quantity
 from optlaws.plots.moves import fronts_figure, motion_figure, strokes_figure
 from optlaws.results import Page, Results
-from optlaws.studies.problem_entries import gap, problem
+from optlaws.studies.problem_entries import gap, problem, steady
 from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS
 from optlaws.synthesis.least_time.timed_move import AT_MOTOR
 from optlaws.synthesis.problem.problem import PROBLEM, Problem
@@ -234,16 +234,6 @@ def _json(about: str, moves: Sequence[SoughtMove]) -> str:
     parts = []
     for each in moves:
         kind, values = ("fronts", each.fronts) if each.fronts else ("moves", each.moves)
-        lines = ",\n".join(json.dumps(_stable(value.to_dict())) for value in values)
+        lines = ",\n".join(json.dumps(steady(value.to_dict())) for value in values)
         parts.append(f"{json.dumps(each.name)}: {{{json.dumps(kind)}: [\n{lines}\n]}}")
     return f"{head},\n" + ",\n".join(parts) + "}\n"
-
-
-def _stable(data: Any) -> Any:
-    """Stored laws and proofs without what differs from run to run: versions, and how long was searched."""
-    if isinstance(data, list):
-        return [_stable(part) for part in data]
-    if not isinstance(data, dict):
-        return data
-    stable = {name: _stable(part) for name, part in data.items() if name != "versions"}
-    return stable | {name: type(stable[name])() for name in ("seconds", "iterations") if name in stable}

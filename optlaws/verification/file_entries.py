@@ -50,6 +50,7 @@ _KINDS = (
     ("least time", {"duration", "solution", "proofs"}),
     ("time front", {"minimise", "fastest", "points"}),
     ("overlap", {"goal", "axes", "given"}),
+    ("axes", {"unit", "axes"}),
     ("plan", {"cycle", "solutions"}),
     ("fastest cycle", {"given", "cycle", "proofs"}),
     ("solution", {"law", "certificate"}),
@@ -74,6 +75,12 @@ _KNOWN: dict[str, dict[str, ValueType]] = {
         "points": Listed(_ANY),
         "failed": Listed(Number()),
         "errors": _TABLES,
+        "about": Text(empty=True),
+    },
+    "the axes": {
+        "unit": Choice("SI"),
+        "axes": Table(_ANY),
+        **dict.fromkeys(("interlocks", "overlap", "transitions"), _ANY),
         "about": Text(empty=True),
     },
     "the array of solutions": {
@@ -170,8 +177,8 @@ def contradictions(data: object) -> Iterator[tuple[str, str]]:
 
 
 def is_entry(data: Data) -> bool:
-    """Whether this is what is verified by itself, whatever its other entries: anything but an array of solutions."""
-    return any(keys <= data.keys() for kind, keys in _KINDS if kind != "array")
+    """Whether this is what is verified by itself, whatever its other entries: no array of solutions, and no machine."""
+    return kind_of(data) not in {None, "array", "axes"}
 
 
 def kind_of(data: Data) -> str | None:
@@ -205,6 +212,8 @@ def _walk(data: object, path: str, around: FileEntry) -> Iterator[tuple[str, Fil
         yield from _row(_stated(entries, "the row", path), path, around)
     elif kind_of(entries) == "array":
         yield from _array(_stated(entries, "the array of solutions", path), entries, path)
+    elif kind_of(entries) == "axes":
+        yield from _axes(_stated(entries, "the axes", path), entries, path)
     elif "over" in entries:
         yield from _front(_stated(entries, "the front", path), path)
     elif "B" in entries:
@@ -243,6 +252,18 @@ def _array(array: Data, data: Data, path: str) -> Iterator[tuple[str, FileEntry]
             raise InputError(f"{NO_FILE}: {place} is neither a solution nor an error")
     if any(array[name] is not None for name in ("parts", "alone", "problems")):
         yield _place(path, "parts"), FileEntry(data)
+
+
+def _axes(machine: Data, data: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
+    """The plan of each axis, and the machine where something is said of its axes together."""
+    for place, plan in _inside(machine["axes"], _place(path, "axes")):
+        if not isinstance(plan, Mapping) or kind_of(plan) != "plan":
+            raise InputError(
+                f"{NO_FILE}: {place} has no plan, its cycle with the solutions, from which its numbers follow"
+            )
+        yield place, FileEntry(plan)
+    if any(machine[name] is not None for name in ("interlocks", "overlap", "transitions")):
+        yield path, FileEntry(data)
 
 
 def _no_law(row: Data, path: str) -> Iterator[tuple[str, FileEntry]]:

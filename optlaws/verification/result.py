@@ -13,7 +13,7 @@ from optlaws.errors import InputError
 from optlaws.numbers import bounded
 from optlaws.synthesis.limits.rounding import rounded_down
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.tolerances import STATED_BOUND
+from optlaws.tolerances import STATED_BOUND, STORED_VALUE
 from optlaws.verification.reading import number
 
 
@@ -49,6 +49,7 @@ Rule: TypeAlias = Callable[[Any, str], Iterable[Claim]]
 #: what is proven of an object, by its keys; None of what says nothing of laws, or is proven with the rest
 Proven: TypeAlias = "Rule | Mapping[str, Proven] | None"
 
+_BESIDE = 1e-13  # of the greatest number of a row: what rounding leaves of one that is 0
 _STATED_CONSTANT = 1e-11  # of a constant: what one that was computed in doubles may be off
 
 
@@ -148,6 +149,44 @@ def compare(stated: Any, proven: Proven, name: str) -> Iterator[Claim]:
             raise InputError(f"{name}: {unknown_key(key, proven, 'entry')}; leave out what is not checked")
     for key, known in proven.items():
         yield from compare(stated.get(key), known, key)
+
+
+def differences(stated: Any, known: Any, name: str, size: float = 0.0) -> Iterator[Claim]:
+    """The claims of data that are not those that are known; null states nothing, and every key must be known.
+
+    Numbers differ beyond rounding: their own, and that of the greatest number beside them, `size`.
+    """
+    if stated is None:
+        return
+    if isinstance(stated, Mapping) and isinstance(known, Mapping):
+        size = greatest(known.values())
+        for key, value in stated.items():
+            if key not in known:
+                raise InputError(f"{name}: {unknown_key(key, known, 'entry')}; leave out what is not checked")
+            yield from differences(value, known[key], f"{name}.{key}" if name else key, size)
+    elif isinstance(stated, list) and isinstance(known, list | tuple) and len(stated) == len(known):
+        size = greatest(known)
+        for i, (value, each) in enumerate(zip(stated, known, strict=True)):
+            yield from differences(value, each, f"{name}[{i}]", size)
+    elif not _agree(stated, known, size):
+        yield Claim(name, proven=False, detail=f"{shortened(stated)} stated, {shortened(known)} computed again")
+
+
+def greatest(values: Iterable[Any]) -> float:
+    """The greatest magnitude of the numbers among values, 0 of none."""
+    return max((abs(value) for value in values if is_number(value)), default=0.0)
+
+
+def _agree(stated: Any, known: Any, size: float) -> bool:
+    if is_number(stated) and is_number(known):
+        allowed = STORED_VALUE * max(abs(stated), abs(known)) + _BESIDE * size
+        return bool(stated == known or abs(stated - known) <= allowed)
+    return bool(stated == known) and type(stated) is type(known)
+
+
+def is_number(value: object) -> bool:
+    """Whether a value is a number, and no switch."""
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def of_number(claim: Callable[[float], Claim]) -> Rule:

@@ -6,12 +6,14 @@ from typing import Any
 
 import pytest
 
-from optlaws import ConstantVelocity, Cycle, Dwell, Return, Rise
+from optlaws import ConstantVelocity, Cycle, Dwell, Plan, Return, Rise
 from optlaws.errors import InputError
-from optlaws.verification import verify
+from optlaws.verification import verify, verify_all
+from tests.documents import ROOT
 from tests.internals.cli import PartlyChecked
 from tests.internals.cli import verify as command
-from tests.verification.tampering import changed
+from tests.internals.cycles import CycleReport
+from tests.verification.tampering import changed, places, value_at
 
 
 @pytest.fixture(scope="module")
@@ -71,3 +73,71 @@ def test_a_fastest_cycle_is_proven_by_its_certificates() -> None:
     weak = changed(data, ("proofs", name, "contacts"), proof["contacts"][1:])
     for wrong in (changed(data, ("period",), 2.0 * data["period"]), weak):
         assert not verify(wrong).proven
+
+
+@pytest.fixture(scope="module")
+def axis() -> dict[str, Any]:
+    """An axis of `cycle.json`: a plan with its numbers, among them an effort, joints and the usual law."""
+    moves = [Rise("35 mm", "120 deg"), Dwell("60 deg"), Return("35 mm", "100 deg", law="cycloidal"), Dwell()]
+    cycle = Cycle(moves, speed="100 rpm", limits={"velocity": "1 m/s"}, drive={"mass": "2 kg", "gravity": "20 N"})
+    return json.loads(json.dumps(CycleReport(cycle).stored, allow_nan=False))  # type: ignore[no-any-return]
+
+
+def test_the_numbers_of_an_axis_are_proven_by_its_laws_or_computed_again(axis: dict[str, Any]) -> None:
+    verification = verify(axis)
+    assert verification.proven
+    assert {"objective", "lower_bound"} < {claim.name for claim in verification.claims}
+    numbers = next(claim for claim in verification.unchecked if claim.name == "the numbers")
+    named = {"period", "usual_law", "segments", "joints", "effort", "laws", "modified_sine_jerk"}
+    assert named < set(numbers.detail.split(": ")[1].split(", "))
+
+
+def test_every_number_of_an_axis_that_is_changed_is_found(axis: dict[str, Any]) -> None:
+    believed = []
+    for path in places(axis):
+        value = value_at(axis, path)
+        if path[0] not in {"cycle", "solutions"} and path[-1] != "format" and isinstance(value, int | float | str):
+            other = f"{value} or so" if isinstance(value, str) else value + 1e-6 * max(abs(value), 1e-3)
+            verification = verify(changed(axis, path, other))
+            believed += [path] if verification.proven else []
+    assert believed == []
+
+
+def test_a_bound_that_a_plan_states_beside_its_laws_is_not_checked_and_never_above_them() -> None:
+    limits = {"rms force": "45 N"}
+    cycle = Cycle([Rise("30 mm", "0.1 s"), Return()], period="0.4 s", drive={"mass": "2 kg"}, limits=limits)
+    stored = json.loads(json.dumps(CycleReport(cycle).stored))
+    assert Plan.from_dict(cycle.solve().to_dict()) == cycle.solve()
+    assert "lower_bound" in {claim.name for claim in verify(stored).unchecked}
+    above = 1.001 * stored["objective"]
+    verification = verify(changed(changed(stored, ("bound",), above), ("lower_bound",), above))
+    assert "is above its objective" in str([str(claim) for claim in verification.claims if not claim.proven])
+
+
+def test_a_plan_selected_among_several_best_keeps_its_bound() -> None:
+    plan = Cycle([ConstantVelocity("1.5 m/s", "80 ms"), Return()], period="400 ms", minimise="velocity").solve()
+    assert plan.chosen
+    assert plan.lower_bound == pytest.approx(1.5)
+    assert Plan.from_json(plan.to_json()).lower_bound == plan.lower_bound
+
+
+def test_a_peak_that_is_infinite_is_stored_as_null() -> None:
+    moves = [Rise("30 mm", "0.1 s", law="parabolic"), Return()]
+    stored = CycleReport(Cycle(moves, period="0.4 s", order=2)).stored
+    assert [each["jerk"] is None for each in stored["segments"]] == [True, False]
+    assert verify(json.loads(json.dumps(stored, allow_nan=False))).proven
+
+
+def test_the_interlocks_and_the_overlap_of_axes_are_computed_again_from_their_plans() -> None:
+    data = json.loads((ROOT / "results" / "cycle_die_and_table" / "cycle.json").read_text("utf-8"))
+    verified = verify_all(data)
+    assert all(each.proven for each in verified.values())
+    assert {claim.name for claim in verified[""].claims} == {"interlock index", "interlock close"}
+    for path, value in (
+        (("interlocks", 0, "clearance"), 1e-6),
+        (("interlocks", 1, "rule", "position"), "30 mm"),
+        (("overlap", "gain"), data["overlap"]["gain"] * 1.001),
+        (("overlap", "objective"), data["overlap"]["objective"] * 0.999),
+        (("overlap", "status"), "local"),
+    ):
+        assert not verify_all(changed(data, path, value))[""].proven, path

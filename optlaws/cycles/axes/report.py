@@ -109,8 +109,9 @@ class AxesReport:
 
     @property
     def data(self) -> dict[str, Any]:
-        """The clearances for programs, in SI units."""
-        return {"interlocks": [least.to_row() for least in self.clearances]} if self.rules else {}
+        """The interlocks with their clearances for programs, in SI units."""
+        rows = ({**least.to_row(), "rule": least.interlock.to_dict()} for least in self.clearances)
+        return {"interlocks": list(rows)} if self.rules else {}
 
     @kept_property
     def positions(self) -> tuple[Panel, ...]:
@@ -224,6 +225,6 @@ class OverlapReport(AxesReport):
     def data(self) -> dict[str, Any]:
         """The overlap and the clearances for programs, in SI units."""
         overlap = self.overlap
-        facts = {name: getattr(overlap, name) for name in ("goal", "objective", "lower_bound", "gain")}
-        known = {"status": overlap.status.value, **facts, "binding": list(overlap.binding)}
+        known = {"status": overlap.status.value, **overlap.to_dict(), "gain": overlap.gain}
+        del known["axes"]  # they stand beside it
         return {**super().data, "overlap": known}

@@ -161,7 +161,10 @@ def ties_broken(layout: Layout, objective: CycleObjective, laws: Laws, period: f
 
 @dataclass(frozen=True)
 class Best:
-    """The best laws of a cycle with their solutions, the choice among equals, and the lower bound in their spaces."""
+    """The best laws of a cycle with their solutions, and the choice among equals.
+
+    The lower bound in their spaces stands beside them where it does not follow from their own bounds.
+    """
 
     laws: Laws
     remarks: tuple[str, ...]
@@ -174,8 +177,8 @@ def best_of(layout: Layout, objective: CycleObjective, period: float) -> Best:
         return Best((), (), None)
     if not objective.shares:
         laws = tuple(_solved(span, objective) for span in layout.spans)
-        bound = bound_of(layout, laws, objective, period)
-        return Best(*ties_broken(layout, objective, laws, period), bound)
+        chosen, remarks = ties_broken(layout, objective, laws, period)
+        return Best(chosen, remarks, bound_of(layout, laws, objective, period) if remarks else None)
     if objective.drive is None:
         raise InputError(
             "limits: the rms force and the energy of a cycle are of a drive: give one, such as drive={'mass': '2 kg'}"
