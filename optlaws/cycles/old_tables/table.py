@@ -31,7 +31,7 @@ from optlaws.errors import InputError, located
 from optlaws.files import reading
 from optlaws.laws.catalogue.tables.columns import LARGEST_TABLE
 from optlaws.laws.catalogue.tables.controller_files import FEWEST_POINTS
-from optlaws.laws.catalogue.tables.curve_pieces import CurvePiece
+from optlaws.laws.catalogue.tables.curve_pieces import APART, CurvePiece
 from optlaws.motion.quantities import QUANTITIES, Exact, either
 from optlaws.numbers import Array, Quantity, not_negative, numbers, positive
 from optlaws.sentences import Amount, joined, sentence
@@ -307,7 +307,7 @@ class OldTable:
         low, high = self.peaks[nu - 1]
         if low == inf:
             return sentence("{} without bound", QUANTITIES[nu])
-        if high - low <= AGREEMENT * high:
+        if f"{low:.4g}" == f"{high:.4g}":
             return sentence("{} {}", QUANTITIES[nu], Amount(low, self.unit_of(nu), 4))
         least, most = (Amount(value, self.unit_of(nu), 4) for value in (low, high))
         if high == inf:
@@ -438,7 +438,7 @@ def _of_pieces(
             f"what runs from the last point, at {places[-1]:.9g}, to the end of the turn is not stated: add the point "
             "of its end, or leave turn out"
         )
-    room = max(not_negative(tolerance or 0.0, "tolerance"), _STANDARD_LAW_ROOM * float(np.ptp(heights)))
+    room = max(not_negative(tolerance or 0.0, "tolerance"), APART * float(np.ptp(heights)))
     whole = turn is not None or either(f"1 {units.master}", ("angle", "time", "length"), "master")[0] == "length"
     stretches, seam = stretches_of_pieces(pieces, room), seam_of(heights, room)
     table = OldTable(stretches, room, 0.0, seam, units.slave, units.master, places, heights, whole=whole)

@@ -9,7 +9,8 @@ from math import factorial, perm
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial import Chebyshev, Polynomial
+from numpy.polynomial import Polynomial
+from numpy.polynomial.polynomial import polyval
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError, located
@@ -18,6 +19,7 @@ from optlaws.laws.law import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array
+from optlaws.numerics import chebyshev
 
 #: of the positions: by how much pieces may be apart where they meet, as REAL32 leaves them
 APART = 1e-6
@@ -65,7 +67,9 @@ class CurvePiece(NamedTuple):
         if self.law:
             values = (0.0 if nu else self.values[0]) + self.values[1] * np.asarray(catalogue[self.law].law(u, nu))
         else:
-            values = np.asarray(Polynomial(self.values).deriv(nu)(u))
+            values = np.asarray(
+                polyval(u, [perm(n, nu) * value for n, value in enumerate(self.values)][nu:] or [0.0]), np.float64
+            )
         return np.asarray(values / self.length**nu)
 
     def between(self, low: float, high: float) -> CurvePiece:
@@ -195,8 +199,8 @@ def law_of_pieces(pieces: Sequence[CurvePiece]) -> MotionLaw:
     segments = []
     for piece in pieces:
         share = piece.length / length
-        bent = Polynomial(piece.values).deriv(2) / (stroke * share**2)
-        acceleration = bent.convert(domain=[0.0, 1.0], kind=Chebyshev).coef
+        u = 0.5 * (chebyshev.nodes(max(len(piece.values) - 2, 1)) + 1.0)
+        acceleration = chebyshev.from_values(piece.at(u, 2) * (length**2 / stroke))
         slope = piece.values[1] if len(piece.values) > 1 else 0.0
         segments.append(PolynomialSegment(tuple(acceleration.tolist()), slope / (stroke * share)))
     places = [0.0, *((piece.stop - start) / length for piece in pieces[:-1]), 1.0]
