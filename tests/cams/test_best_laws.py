@@ -112,13 +112,17 @@ def test_an_arm_has_laws_and_a_bound_near_them() -> None:
         best_cam(ROCKER, "65 mm", ARM, pressure_angle="10 deg")
 
 
-def test_curvature_under_a_roller_is_held_against_the_laws() -> None:
+@pytest.mark.long
+def test_a_curvature_that_no_law_has_under_a_roller_is_refused() -> None:
     sharp = Cycle([Rise("30 mm", "70 deg"), Return("30 mm", "70 deg"), Dwell()], period="1 s")
     with pytest.raises(
         SolverFailure, match=r"its limit is not convex in the law: make the prime circle larger"
     ) as caught:
         best_cam(sharp, "25 mm", TranslatingRoller("8 mm"), radius_of_curvature="20 mm")
     assert "(at rest the profile has 17 mm, whatever the law)" in str(caught.value)
+
+
+def test_a_curvature_that_the_laws_have_costs_nothing() -> None:
     kept = best_cam(PRESS, "60 mm", TranslatingRoller("8 mm"), radius_of_curvature="8 mm")
     assert kept.objective == pytest.approx(PRESS.objective, rel=1e-9)
 

@@ -46,6 +46,7 @@ def test_a_c_compiler_takes_the_template_itself(file: str, rows: str, choice: st
     assert "lower" in run.stderr
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("choices", [set(some) for some in product(["ODD", ""], ["PIECES", ""])])
 @pytest.mark.parametrize("file", ["motion.st", "front.st", "codesys.st"])
 def test_the_grammar_of_the_standard_takes_the_template_itself(file: str, choices: set[str]) -> None:

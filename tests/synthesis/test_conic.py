@@ -78,6 +78,7 @@ def test_both_references_agree(minimise: str) -> None:
         assert least(problem) == pytest.approx(reference.least(problem), rel=1e-5)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("number", [98, 101, 102])
 def test_quadratic_steps_end_what_clarabel_leaves(number: int) -> None:
     """Constants in units that differ by 1e9 leave the cones next to no interior."""

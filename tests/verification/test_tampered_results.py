@@ -112,6 +112,7 @@ def words(verification: Verification) -> set[str]:
     return {word for claim in verification.unchecked for word in claim.name.split()}
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.parent.name)
 def test_what_is_changed_in_a_result_is_found(file: File) -> None:
     found = list(kinds(*file_of(file)))

@@ -19,6 +19,7 @@ from optlaws import (
     Return,
     Rise,
 )
+from tests.sampling import examples
 
 LIMITS = {"acceleration": "60 m/s^2"}
 CAM = [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()]
@@ -77,6 +78,7 @@ _OR_NONE = st.just(0.0) | _SIZE
 
 
 @given(st.data(), st.sampled_from(AT_MOTOR), st.sampled_from(sorted(TURNS)))
+@examples(14)
 def test_one_drive_by_constants_mechanism_and_gear_has_one_answer(
     data: st.DataObject, asked: tuple[str, dict[str, str], bool], motion: str
 ) -> None:
@@ -211,6 +213,7 @@ def test_tables_on_a_line_are_lines() -> None:
     agree(outcome("cam", table, minimise="power"), outcome("cam", known, minimise="power"))
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("what", ["force", "rms force", "power"])
 def test_a_constant_force_is_a_weight_and_one_over_the_way_a_spring(what: str) -> None:
     motion, spring = "cam" if what == "power" else "swings", "300 N/m"

@@ -180,6 +180,7 @@ def test_the_same_move_in_other_units_has_the_same_limit() -> None:
     assert inf > plain
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("regeneration", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize(
     ("way", "size"),

@@ -150,7 +150,7 @@ _INTEGRALS: list[Callable[[float, float], str]] = [
 ]
 
 
-@pytest.mark.sample(9)
+@pytest.mark.sample(18)
 @pytest.mark.parametrize("seed", range(90))
 def test_random_integrals_of_sizes_are_optimal(seed: int) -> None:
     """Pairs of kinks are often within 1e-4 of each other at the optimum, or come and go at the middle of a law."""

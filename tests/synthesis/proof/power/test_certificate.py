@@ -253,7 +253,7 @@ def test_the_bound_of_fewer_conditions_is_no_higher() -> None:
     assert all(map(isfinite, chain))
 
 
-@pytest.mark.sample(2)
+@pytest.mark.long
 @pytest.mark.parametrize("minimise", ["C", "J"])
 def test_a_power_below_the_least_is_refused_with_proof(minimise: str, first: Solution) -> None:
     least = first.objective
