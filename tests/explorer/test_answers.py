@@ -454,6 +454,7 @@ def test_the_page_offers_files_that_there_are_of_its_view(view: str) -> None:
     assert {"problem"} <= offered or not offered
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("view", downloads.VIEWS)
 def test_the_report_of_a_view_is_printed_with_its_facts_and_curves(view: str) -> None:
     study = cycle_view.example() if view == "advice" else EXAMPLES.get(view, dict)()

@@ -61,6 +61,7 @@ def test_it_is_periodic_and_obeys_the_equation(seed: int, nu: float, damping: fl
     assert steady.peak(0).value >= np.abs(a).max() - 1e-12 * size
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("nu", "damping"), [(0.5, 0.3), (20.0, 0.0), (20.0, 0.05), (200.0, 0.01), (60.0, 1.0), (90.0, 2.0)]
 )

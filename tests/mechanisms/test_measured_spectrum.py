@@ -178,6 +178,7 @@ def residual_by_quadrature(c: Callable[[np.ndarray], np.ndarray], nu: np.ndarray
     return np.asarray(nu * moved / np.sqrt(1.0 - damping**2))
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(("points", "size"), [(60, 1e-9), (300, 1e9), (1000, 1e-3), (2000, 1.0), (5000, 1e6)])
 @pytest.mark.parametrize("damping", [0.0, 0.03])
 def test_the_greatest_is_that_of_the_whole_table(points: int, size: float, damping: float) -> None:

@@ -148,6 +148,7 @@ def disturbed(folder: Path, seed: int, victims: Sequence[str], text: str = FILE)
     assert status == 0, message
 
 
+@pytest.mark.long
 def test_killed_within_an_array_it_ends_as_if_nothing_had_been(tmp_path: Path) -> None:
     assert list(disturbed(tmp_path, 2, ["run"], FILE_OF_LINES)) == ["run"]
     study = open_study(tmp_path / "out")

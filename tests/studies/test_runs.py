@@ -99,6 +99,7 @@ def test_any_executor_gives_the_rows_of_a_serial_run(small: Study, tmp_path: Pat
         assert rows(run_study(SMALL, tmp_path, executor=pool)) == rows(small)
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore::ResourceWarning")
 def test_a_cluster_gives_the_rows_of_a_serial_run(small: Study, tmp_path: Path) -> None:
     from distributed import Client, LocalCluster

@@ -201,7 +201,7 @@ CASES = {
 }
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(5)
 @pytest.mark.parametrize("name", CASES)
 def test_a_degenerate_optimum_is_proven(name: str) -> None:
     problem, least = CASES[name]

@@ -77,6 +77,7 @@ def test_no_text_of_a_file_of_proofs_states_a_quantity(name: str) -> None:
     assert "about" not in data
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("name", MADE)
 def test_a_text_that_was_put_into_a_file_is_not_shown(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -300,6 +300,7 @@ def test_the_front_of_a_cycle_of_one_move_has_the_objectives_of_cycles_in_its_ti
         assert point.value == pytest.approx(plan.objective, rel=1e-6)
 
 
+@pytest.mark.long
 def test_the_front_of_a_cycle_with_a_motor_is_within_its_rating() -> None:
     motor = Motor("3e-4 kg m^2", rated_torque="2 N m", peak_torque="4 N m", greatest_speed="900 rpm")
     drive = Drive(Mechanism("0.8 kg m^2", "20 N m"), motor, ratio=20)

@@ -145,7 +145,7 @@ def mechanism(name: str) -> Mechanism:
     return Mechanism(inertia, load, axis="length", **friction)
 
 
-@pytest.mark.sample(8)
+@pytest.mark.sample(16)
 @pytest.mark.parametrize("motion", MOTIONS)
 @pytest.mark.parametrize("name", ENTRIES)
 @pytest.mark.parametrize("what", ["force", "rms force", "power", "energy", "acceleration"])

@@ -77,7 +77,7 @@ def test_every_limit_is_tried() -> None:
 
 
 @pytest.mark.parametrize("scale", SCALES)
-@pytest.mark.parametrize(("minimise", "names"), sampled(CASES, 9))
+@pytest.mark.parametrize(("minimise", "names"), sampled(CASES, 15))
 def test_strokes_in_another_scale_change_no_status(minimise: str, names: tuple[str, ...], scale: float) -> None:
     (status, objective, bound), other = outcome(minimise, names, 1.0), outcome(minimise, names, scale)
     assert other[0] == status

@@ -274,6 +274,7 @@ def test_what_only_touches_its_bounds_is_taken() -> None:
     assert moved_by_time.torque(2.0, 1.0, 0.0, time=0.5) == 4.0
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("branch", ["open", "crossed"])
 @pytest.mark.parametrize("more", [1e-2, -1e-2, 3e-3, -3e-3, 1e-5, -1e-5])
 def test_a_rocker_that_turns_over_at_once_has_no_jump(more: float, branch: Literal["open", "crossed"]) -> None:

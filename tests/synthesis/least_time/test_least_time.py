@@ -310,6 +310,7 @@ def test_the_limit_of_all_laws_is_that_of_ruckig_in_many_cases() -> None:
     compare_limits_with_ruckig(10_000, 4)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("seed", range(12))
 def test_pieces_with_the_breaks_of_the_limit_reach_it(seed: int) -> None:
     """Some limits alone, ends that move, also backwards."""
@@ -345,6 +346,7 @@ def linear_program(move: TimedMove, duration: float, steps: int) -> bool:
     return bool(found.status == 0)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("forward", [False, True])
 @pytest.mark.parametrize("seed", range(6))
 def test_the_limit_without_a_jerk_is_that_of_a_linear_program(seed: int, *, forward: bool) -> None:
