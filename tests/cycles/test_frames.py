@@ -32,6 +32,18 @@ def test_rows_that_begin_anywhere_in_a_turn_go_on_over_its_end() -> None:
         split_table([*DEGREES, *DEGREES], [*lift(DEGREES), *lift(DEGREES)])
 
 
+def test_a_table_may_begin_below_zero(tmp_path: Path) -> None:
+    """Whole numbers from -10000 to 10000 as controllers of electronic cams take them, a sine of 500 over the turn."""
+    x = np.linspace(-10000.0, 10000.0, 41)
+    lines = (f"{place:.0f}\t{1000 + 500 * np.sin(2e-4 * np.pi * (place / 2 + 5000)):.0f}" for place in x)
+    (tmp_path / "ecam.txt").write_text("\n".join(lines), encoding="utf-16")
+    table = read_cycle_table(tmp_path / "ecam.txt", master="0.001 mm", unit="0.001 mm")
+    assert [part.kind for part in table.stretches] == ["rise", "return", "rise"]
+    assert [part.stop for part in table.stretches] == pytest.approx([-5.0, 5.0, 10.0], abs=0.01)
+    assert table.peaks[1].holds(0.5 * (2 * np.pi / 20) ** 2)
+    assert table.cycle(period="1 s").peak(2) == pytest.approx(0.5e-3 * (2 * np.pi) ** 2, rel=0.01)
+
+
 def test_one_lobe_of_several_is_a_turn() -> None:
     """An eighth of a turn of a dial that advances by 45 deg in each, without the last row."""
     x = np.arange(0.0, 45.0, 0.5)

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.interpolate import BPoly
 
 from optlaws import InputError, MotionLaw, catalogue, read_cycle_table, read_law
 from tests.exports.samples import press
@@ -93,6 +94,42 @@ Begintable # Begin of table
 EndTable
 """
 
+#: and the one by which TwinCAT CNC explains its coefficients (infosys.beckhoff.com, 15306134667)
+TEN = """Tablename = poly5line_2 # Table name
+Table-ID = 402 # Table id
+Tabletype = 7 # Table type
+Functiontype = 5 # Type of interpolation, 5 = POLY5-LINE
+Lines = 10 # Number of lines
+Begintable # Begin of table
+100000 0
+200000 400000
+400000 1600000
+670000 1800000
+900000 300000
+980000 1700000
+1500000 3400000
+1800000 2700000
+2700000 1700000
+3000000 2600000
+EndTable
+"""
+
+
+@pytest.mark.parametrize("text", [ENDLESS, SMALLEST, TEN])
+def test_lines_and_polynomials_are_those_of_their_boundary_conditions(text: str, tmp_path: Path) -> None:
+    (tmp_path / "cam.txt").write_text(text)
+    table = read_cycle_table(tmp_path / "cam.txt", unit="deg")
+    points = [tuple(map(float, line.split()[:2])) for line in text.splitlines() if line[0].isdigit()]
+    x, y = np.array([*points, (points[0][0] + 3.6e6, points[0][1])]).T / 1e4
+    slopes, count = np.diff(y) / np.diff(x), len(points)
+    for i in range(count):
+        places = np.linspace(x[i], x[i + 1], 41)
+        if (i % 2 == 0) is ("type = 5" in text):
+            assert table.at(places) == pytest.approx(np.interp(places, x, y), abs=1e-9)
+        else:
+            ends = [[y[i], slopes[i - 1], 0.0], [y[i + 1], slopes[(i + 1) % count], 0.0]]
+            assert table.at(places) == pytest.approx(BPoly.from_derivatives(x[i : i + 2], ends)(places), abs=1e-9)
+
 
 def test_lines_and_polynomials_of_the_isg_kernel_alternate_over_the_seam(tmp_path: Path) -> None:
     file = tmp_path / "endless.txt"
@@ -169,3 +206,6 @@ def test_the_law_of_a_controller_is_that_which_runs(tmp_path: Path) -> None:
     k = np.linspace(0.0, 1.0, 11)
     assert law(k) == pytest.approx(QUINTIC(k), abs=1e-14)
     assert law.constants.C.value == pytest.approx(catalogue["3-4-5 polynomial"].law.constants.C.value)
+    file.write_text(file.read_text().replace("25.0", "5.0"))
+    with pytest.raises(InputError, match=r"rise\.txt: it ends where it begins, .* read_cycle_table"):
+        read_law(file)
