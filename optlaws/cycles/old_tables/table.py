@@ -357,7 +357,7 @@ def read_cycle_table(
         these. What the file says unless given, else "mm", and "deg", "turn" or "rad" by the master's length. A master
         may be an angle, a time or a length.
     cam
-        Which cam of a file with several: a tag of Logix Designer, a joint of ROS.
+        Which cam of a file with several: a tag of Logix Designer, a joint of ROS, a heading of a column.
     turn
         How much of the master is a turn, such as "720 deg" of a crank or "1500 mm" of a web, where the row of its end
         is missing or it is none of 360 deg; from the first to the last row unless given.

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from optlaws import InputError, catalogue, read_cycle_table, read_law
+from tests.internals.cycles import read_points
 
 ANGLES = np.arange(0.0, 361.0, 5.0)
 LIFT = 1200.0 * catalogue["cycloidal"].law(np.clip(ANGLES / 180.0, 0.0, 1.0))
@@ -41,6 +42,9 @@ def test_cylinders_beside_each_other_in_markdown_are_chosen_by_name(tmp_path: Pa
             read_cycle_table(file)
     table = read_cycle_table(file, columns=("kąt", "Dolotowy_Cyl3"), turn="720 deg")
     assert (table.unit, table.master) == ("mm", "deg")
+    assert read_points(file, cam="Dolotowy_Cyl3").heights.tolist() == table.heights[:-1].tolist()
+    with pytest.raises(InputError, match=r"has no column 'Cyl3': columns are numbers from 1 to 9, or one of 'Kąt"):
+        read_points(file, cam="Cyl3")
     assert [part.kind for part in table.stretches] == ["return", "dwell", "rise", "return"]
     assert [part.stop for part in table.stretches] == pytest.approx([35.0, 515.0, 635.0, 720.0], abs=1.0)
     assert table.peaks[1].holds(1776.53 * 1e3 / 24000.0**2)

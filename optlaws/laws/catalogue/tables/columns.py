@@ -78,7 +78,7 @@ def points_of(
     content
         The text of the file where it has been read.
     cam
-        Which cam of a file with several.
+        Which cam of a file with several; the heading of its column.
 
     Raises
     ------
@@ -91,9 +91,9 @@ def points_of(
             known = decoded(text, cam)
         if known is not None:
             return known
-    if cam is not None:
-        raise InputError(f"{file} has columns of numbers, and no cam {shortened(cam)}: choose two by columns")
     lines, headings = _lines_of(text, str(file))
+    if cam is not None:
+        columns = (1 + lines[0].numeric[0], cam)
     chosen = _chosen(columns, headings, lines[0], str(file), most, written_by_optlaws=MARK in text)
     while lines and not any(lines[-1].numbers(chosen)):
         lines.pop()
