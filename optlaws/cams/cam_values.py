@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import degrees
 
+from optlaws.cams.barrel import BarrelCam
+from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import positive
 from optlaws.cams.forces import CamForces
@@ -35,13 +37,28 @@ def motion_values(cam: DiscCam, rate: float) -> Values:
     >>> {name: (round(value, 4), unit) for name, (value, unit) in values.items()}["peak acceleration"]
     (0.8796, 'm/s²')
     """
-    motion, values = cam.displacement, Values()
-    for nu, name in enumerate(QUANTITIES[1:], 1):
-        values[f"peak {name}"] = rate**nu * max(map(abs, motion.extremes(nu))), unit_of(motion.axis, nu)
+    values = _peaks(cam.displacement, rate)
     if (pressed := cam.extremes.greatest_pressure_angle.value) > SMALLEST_ANGLE:
         values["greatest pressure angle"] = degrees(pressed), "deg"
     values["prime circle"] = MILLI * positive(cam.prime_radius, "prime_radius"), "mm"
     return values
+
+
+def barrel_values(cam: BarrelCam, rate: float) -> Values:
+    """The same of a barrel cam, its angles at the bottom of the groove, and how far its flanks are from cusps."""
+    steep = max(abs(extreme.value) for extreme in cam.pressure_angles)
+    return _peaks(cam.displacement, rate) | {
+        "greatest pressure angle at the bottom": (degrees(steep), "deg"),
+        "least way of a flank a radian": (MILLI * cam.margin.value, "mm"),
+    }
+
+
+def _peaks(motion: CamMotion, rate: float) -> Values:
+    """Peak velocity, acceleration and jerk of a follower at a speed of the cam in rad/s."""
+    return {
+        f"peak {name}": (rate**nu * max(map(abs, motion.extremes(nu))), unit_of(motion.axis, nu))
+        for nu, name in enumerate(QUANTITIES[1:], 1)
+    }
 
 
 def force_values(forces: CamForces) -> Values:

@@ -12,17 +12,28 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optlaws.cams.barrel import SIDES, BarrelCam
-from optlaws.cams.cam_values import SMALLEST_ANGLE
+from optlaws.cams.cam_values import (
+    SMALLEST_ANGLE,
+    barrel_values,
+    cam_differences,
+    force_values,
+    known_values,
+    motion_values,
+)
+from optlaws.cams.cam_values import Values as ValuesByName
 from optlaws.cams.curves.plane_curve import CurveByAngle
 from optlaws.cams.followers.follower import positive
 from optlaws.cams.forces import CamForces, Surfaces
 from optlaws.cams.least_sizes import CamLimits
 from optlaws.cycles.cycle import Cycle, Plan
+from optlaws.cycles.usual_law import usual_cycle
 from optlaws.kept import kept_property
+from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.motion.quantities import DEGREES, MILLI, TURN, TURN_DEG, UNITS
 from optlaws.numbers import Array, Quantity, bounded, chop
 from optlaws.sentences import Sentence, joined, sentence
 from optlaws.shown.curve_points import refined
+from optlaws.shown.difference import Differences
 from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Section, Series
 from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import CAM_FEASIBILITY, FORCE_ROUNDING, RADIUS_ROUNDING
@@ -71,7 +82,25 @@ class CamReport:
             for name, extremes, unit, factor in named_forces(CamForces(cam)):
                 rows.append(Row(f"{name}, least", factor * extremes.least, unit, degrees(extremes.least_at)))
                 rows.append(Row(f"{name}, greatest", factor * extremes.most, unit, degrees(extremes.most_at)))
-        return Summary(rows, at="deg")
+        beside = {} if self.beside is None else {row.name: row for row in self.beside.rows}
+        beside.pop("prime circle", None)  # it is the same
+        noted = [row._replace(note=beside.pop(row.name).note) if row.name in beside else row for row in rows]
+        return Summary([*noted, *beside.values()], at="deg")
+
+    @kept_property
+    def beside(self) -> Differences | None:
+        """What the cam takes beside one with modified sine on the same prime circle; None where that has no sense."""
+        cam, usual = self.cam, _usual_motion(self.cam.motion)
+        if usual is None:
+            return None
+        rate, driven = TURN / usual.duration, usual.drive is not None
+
+        def values(motion: Any) -> ValuesByName:
+            placed = replace(cam, motion=motion)
+            parts: list[Callable[[], ValuesByName]] = [lambda: motion_values(placed, rate)]
+            return known_values(*parts, *([lambda: force_values(CamForces(placed))] if driven else []))
+
+        return cam_differences(USUAL, values(usual), values(cam.motion))
 
     @property
     def beyond(self) -> list[Sentence]:
@@ -219,6 +248,23 @@ class CamReport:
         sizes = [value for _, value in peaks]
         ends_of = min(sizes, default=0.0), max(sizes, default=0.0)
         return Panel(name, unit, (Series(at, curve),), (), peaks, ends_of, across="cam, deg", per=DEGREES)
+
+
+def _usual_motion(motion: Any) -> Cycle | None:
+    """The cycle of a cam with modified sine in its moves; None where none of its laws was optimised."""
+    if not isinstance(motion, Cycle | Plan) or not motion.solve().solutions:
+        return None
+    usual: Cycle | None = usual_cycle(motion.solve().specification)
+    return usual
+
+
+def barrel_differences(cam: BarrelCam) -> Section:
+    """The motion and the pressure angle of a barrel cam beside those with modified sine; empty where that is none."""
+    usual = _usual_motion(cam.motion)
+    if usual is None:
+        return Section()
+    both = (barrel_values(each, TURN / usual.duration) for each in (replace(cam, motion=usual), cam))
+    return cam_differences(USUAL, *both).section()
 
 
 #: what is known of the cusps of a flank by the status of its undercut

@@ -14,10 +14,11 @@ from optlaws.cycles.optimisation.objectives import SUMS, kind_of
 from optlaws.cycles.placed import Place, limit_rows
 from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, LimitTaken
 from optlaws.cycles.specification.load import is_process, read_load
-from optlaws.cycles.usual_law import USUAL, usual_cycle
-from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
+from optlaws.cycles.usual_law import usual_cycle
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.formulas.tree import Number
 from optlaws.kept import kept_property
+from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel, times_in
@@ -275,6 +276,22 @@ class FastestReport(CycleReport):
         return Summary([*rows, *(each.row for each in fastest.segments)])
 
     @kept_property
+    def beside(self) -> Differences | None:
+        """The cycle beside modified sine at its own greatest speed; None where that is not possible."""
+        given: Any = self.fastest.specification
+        usual = usual_cycle(given)
+        if usual is None:
+            return None
+        try:
+            slower = replace(usual, limits=given.limits).fastest()
+            taken = cycle_differences(USUAL, slower.solve(), self.plan)
+        except (InfeasibleProblem, InputError, SolverFailure):
+            return None
+        fastest, known = self.fastest, [("greatest speed", "rpm", "rpm"), ("least period", "s", "period")]
+        times = [Difference(name, unit, getattr(slower, of), getattr(fastest, of)) for name, unit, of in known]
+        return Differences(USUAL, [*times, *taken.values])
+
+    @kept_property
     def data(self) -> dict[str, Any]:
         """The greatest speed for programs, in SI units."""
         fastest = self.fastest
@@ -282,6 +299,7 @@ class FastestReport(CycleReport):
             "status": fastest.status.value,
             **{name: getattr(fastest, name) for name in ("speed", "rpm", "period", "lower_bound", "best_possible")},
             "gains": [vars(gain) for gain in fastest.gains],
+            **({} if self.beside is None else self.beside.data),
             "segments": [each.to_dict() for each in fastest.segments],
         }
 

@@ -9,13 +9,11 @@ from optlaws.cycles.placed import with_laws
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.specification.segments import CycleSegment, Free, Move
 from optlaws.errors import InputError
+from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.motion.piece import moves_at, named_law
 
 if TYPE_CHECKING:
     from optlaws.cycles.cycle import Cycle
-
-#: the law that cams and servo axes have where nothing else is said
-USUAL = "modified sine"
 
 
 def usual_cycle(cycle: Cycle) -> Cycle | None:

@@ -33,7 +33,7 @@ from optlaws.cams.least_sizes import (
     greatest_roller,
     least_prime_circle,
 )
-from optlaws.cams.report import CamReport, barrel_coordinates, barrel_section, forces_section
+from optlaws.cams.report import CamReport, barrel_coordinates, barrel_differences, barrel_section, forces_section
 from optlaws.cams.springs_and_flywheels import (
     CONTACT,
     GREATEST,
@@ -45,12 +45,13 @@ from optlaws.cams.springs_and_flywheels import (
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.report import objective_unit
 from optlaws.cycles.specification.segments import OPTIMAL
-from optlaws.cycles.usual_law import USUAL, usual_cycle
+from optlaws.cycles.usual_law import usual_cycle
 from optlaws.echo import shortened
 from optlaws.entries.declared import entries_of
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located
 from optlaws.jobs.cam_entries import BarrelProblemFile, CamProblemFile
 from optlaws.kept import kept_property
+from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.motion.quantities import MICRO, MILLI, TURN, TURN_DEG, Exact
 from optlaws.numbers import chop
 from optlaws.plots.cam import animated, barrel_figure, cam_figure, forces_figure, pair_figure
@@ -112,7 +113,9 @@ def read(data: Mapping[str, Any], file: Path) -> CamResult | BarrelResult:
             return CamResult.of_file(spec)
         cam = BarrelCam(spec.cycle, **spec.barrel.to_dict(), turning=spec.turning)
         section, table = barrel_section(cam), barrel_coordinates(cam, spec.rows, spec.cutter_radius)
-        return BarrelResult(spec, (section,), {"unit": "SI", **section.data}, table, partial(barrel_figure, cam))
+        sections = (section, barrel_differences(cam))
+        data = {"unit": "SI"} | {name: value for each in sections for name, value in each.data.items()}
+        return BarrelResult(spec, sections, data, table, partial(barrel_figure, cam))
 
 
 class BarrelResult(NamedTuple):

@@ -169,6 +169,8 @@ def _add_axis(
     page.heading(name).picture(plain, title, figure_of(cycle.plot(), title), f"axis {name}: its picture")
     if fastest is not None:
         page.facts(fastest.summary())
+        if fastest.report().beside is not None:
+            page.table(*fastest.report().beside.table)
     page.report(cycle.report())
     if isinstance(cycle.drive, Drive):
         caption = f"{title}, torque over speed at the motor"

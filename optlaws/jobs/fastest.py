@@ -20,6 +20,7 @@ from optlaws.files import writing
 from optlaws.files.tables import Cell
 from optlaws.jobs.cycle_entries import AxisEntries, drive_of
 from optlaws.jobs.job_entries import ProblemFile, plain_name
+from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import UNITS
 from optlaws.numbers import Quantity
@@ -32,7 +33,8 @@ from optlaws.synthesis.problem.problem import PROBLEM, Problem
 from optlaws.synthesis.status import Status
 
 HEADINGS = (
-    "move", "stroke", "least time, s", "no law below, s", "best possible, s", "above it, %", "status", "binds",
+    "move", "stroke", "least time, s", f"{USUAL}, s", "difference",
+    "no law below, s", "best possible, s", "above it, %", "status", "binds",
 )  # fmt: skip
 _FEW = 7
 _PERCENT = 100.0
@@ -186,7 +188,9 @@ def _line(name: str, move: FastestMove) -> list[Cell]:
     )
     price = None if best is None else f"{_PERCENT * (move.duration / best - 1.0):.2f}"
     stroke = f"{factor * move.stroke:.9g} {unit}"
-    return [name, stroke, move.duration, below, best, price, move.status.value, ", ".join(move.binding)]
+    usual = None if move.beside is None else move.beside.values[0]
+    beside = [None, None] if usual is None else [usual.usual, usual.text]
+    return [name, stroke, move.duration, *beside, below, best, price, move.status.value, ", ".join(move.binding)]
 
 
 def _add_move(page: Page, title: str, each: SoughtMove) -> None:
@@ -200,6 +204,8 @@ def _add_move(page: Page, title: str, each: SoughtMove) -> None:
         page.table(HEADINGS[1:], [_line(each.name, each.moves[i])[1:] for i in few], digits=6)
         return
     page.picture(name, f"{each.name}: the fastest motion", motion_figure(move, title)).facts(move.summary(), digits=6)
+    if move.beside is not None:
+        page.table(*move.beside.table, digits=6)
     if each.fronts:
         figure = fronts_figure(each.fronts, title)
         page.picture(f"{name}_front", f"{each.name}: what is least over the time", figure)

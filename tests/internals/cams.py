@@ -13,3 +13,4 @@ from optlaws.cams.followers.faces import FaceContact
 from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.followers.rollers import RollerContact, SlidingRoller, SwingingRoller
 from optlaws.cams.forces import Surfaces
+from optlaws.cams.report import barrel_differences

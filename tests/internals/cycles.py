@@ -18,8 +18,9 @@ from optlaws.cycles.report import CycleReport
 from optlaws.cycles.specification.drive import read_drive
 from optlaws.cycles.specification.limits import LIMITS_OF_CYCLE, LIMITS_OF_MOVE
 from optlaws.cycles.specification.load import ElasticFollower
-from optlaws.cycles.usual_law import USUAL, usual_cycle
+from optlaws.cycles.usual_law import usual_cycle
 from optlaws.files import reading
+from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.laws.catalogue.tables.columns import LARGEST_TABLE
 from optlaws.motion.quantities import Kind
 from optlaws.synthesis.least_time.timed_move import RATES as OBJECTIVES_OF_MOVES

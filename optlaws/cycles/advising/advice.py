@@ -16,9 +16,9 @@ from optlaws.cycles.moves.timed_moves import read_follower
 from optlaws.cycles.specification.limits import AXES
 from optlaws.cycles.specification.programme import axis_of, period_of
 from optlaws.cycles.specification.segments import Move, Return
-from optlaws.cycles.usual_law import USUAL
 from optlaws.echo import shortened, unknown_key
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located, needed
+from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.laws.catalogue.reading import read_law
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism

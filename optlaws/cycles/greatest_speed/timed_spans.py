@@ -96,7 +96,7 @@ class TimedSpan(Timed):
         """The least scale of the time at which a law keeps the limits, or the law that is given does; 0 without any."""
         if self.problem is not None:
             return self._least.duration
-        return max((least_scale(limit, self.given) for limit in self.along if self.given is not None), default=0.0)
+        return 0.0 if self.given is None else least_time_of(self.given, self.along)
 
     @property
     def law(self) -> MotionLaw | None:
@@ -158,6 +158,11 @@ class TimedSpan(Timed):
             return None
         bound = solution.power_certificate
         return bound if bound is not None and bound.bound > allowed else None
+
+
+def least_time_of(law: MotionLaw, limits: Sequence[SpanLimit]) -> float:
+    """The least time, or scale of it, from which on a law satisfies limits; infinite if none does, 0 if all do."""
+    return max((least_scale(limit, law) for limit in limits), default=0.0)
 
 
 def least_scale(limit: SpanLimit, law: MotionLaw) -> float:

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import inf, isfinite
 from typing import Any
 
 import numpy as np
 
-from optlaws.cycles.specification.limits import LimitTaken
+from optlaws.cycles.greatest_speed.timed_spans import least_time_of
+from optlaws.cycles.specification.limits import DECELERATION, LimitTaken
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import former_name, kept_property
 from optlaws.laws import MotionLaw
+from optlaws.laws.catalogue.catalogue import USUAL, catalogue
 from optlaws.laws.law import LawExport
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import DriveSheet, PieceEffort
@@ -23,7 +26,9 @@ from optlaws.motion.motion import Exportable, Motion, motion_of_pieces
 from optlaws.motion.piece import Piece, unit_of
 from optlaws.motion.quantities import DEGREES, QUANTITIES, Exact, quantity
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, positive, real_times
+from optlaws.numerics.roots import bisect
 from optlaws.shown.curve_points import refined
+from optlaws.shown.difference import Difference, Differences
 from optlaws.shown.report import Panel, PanelLimit, Report, ReportSegment, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.least_time.least_time import LeastTime
@@ -38,6 +43,7 @@ from optlaws.tolerances import SAME_TIME
 #: what the unit of a stroke measures
 AXES = {"m": "length", "rad": "angle"}
 _MORE = 0.1
+_LONGEST, _TIMES = 3.0, 300  # times of a law that leaves a vibration: up to so many times the shortest, and how many
 _STEPS = 241  # of a torque, to which those are added that its curve needs
 
 
@@ -205,6 +211,34 @@ class FastestMove(LawExport, MovePlan, JsonText):  # type: ignore[misc] # its ex
             for name in self.binding
         )
 
+    @kept_property
+    def beside(self) -> Differences | None:
+        """The move beside modified sine within the same limits: both least times, and what the laws take in them.
+
+        None where an end moves, or no time of modified sine keeps the limits.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> limits = {"velocity": "1 m/s", "acceleration": "12 m/s^2", "jerk": "300 m/s^3"}
+        >>> move = optlaws.fastest(optlaws.Problem(order=3), stroke="100 mm", limits=limits)
+        >>> [(each.name, each.text) for each in move.beside.values][:2]
+        [('least time', '-19.0 %'), ('velocity', '+39.1 %')]
+        """
+        usual = catalogue[USUAL].law
+        time = _time_of(usual, self.least.move)
+        if not 0.0 < time < inf:
+            return None
+        both = (MoveReport(self, usual, time), MoveReport(self, self.law, self.duration))
+        values = [Difference("least time", "s", time, self.duration)]
+        for nu, name in enumerate(QUANTITIES[1:], 1):
+            sizes = [max(abs(value) for value, _ in each.piece.extremes(nu, 0.0, each.duration)) for each in both]
+            values.append(Difference(name, unit_of(self.axis, nu), *sizes))
+        for first, second in zip(*(each.limits_taken for each in both), strict=True):
+            if first.name not in (*DERIVATIVES, DECELERATION):
+                values.append(Difference(first.name, first.unit, first.value, second.value))
+        return Differences(USUAL, values)
+
     def proof_rows(self) -> Summary:
         """The least time and the best possible time, with what is proven of them."""
         rows = [Row("least time", self.duration, "s", note=self._proven)]
@@ -281,6 +315,24 @@ class FastestMove(LawExport, MovePlan, JsonText):  # type: ignore[misc] # its ex
         return f"FastestMove(duration={self.duration:.9g}{best}, binding={self.binding!r})"
 
 
+def _time_of(law: MotionLaw, move: TimedMove) -> float:
+    """The least time in which a law whose snap jumps keeps the limits of a move; infinite where none is known."""
+    if not move.at_rest or move.limits.snap is not None:
+        return inf
+    time, left = least_time_of(law, move.without_residual.along), move.residual
+    if left is None or not 0.0 < time < inf:
+        return time
+
+    def calm(duration: float) -> bool:
+        return left.limit_in(duration, move.stroke).share(law) <= 1.0
+
+    # a vibration need not fall as the time grows: the first time that keeps its limit
+    for before, after in pairwise([time, *np.geomspace(time, _LONGEST * time, _TIMES).tolist()]):
+        if calm(after):
+            return bisect(calm, after, before)[0]
+    return inf
+
+
 def best_possible_row(best: float | None, least: float, laws: str = "of any degree") -> Row:
     """What is known of the time of all laws, beside the least time of those of a space.
 
@@ -313,8 +365,12 @@ class MoveReport:
     drive: Drive | None = None
     start: float = 0.0
 
-    tables: tuple[ReportTable, ...] = ()
     segments: tuple[ReportSegment, ...] = ()
+
+    @property
+    def tables(self) -> tuple[ReportTable, ...]:
+        """The move beside modified sine."""
+        return () if self.move.beside is None else (self.move.beside.table,)
 
     @property
     def facts(self) -> Summary:

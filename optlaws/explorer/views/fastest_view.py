@@ -145,6 +145,8 @@ def _of_move(move: MoveEntries, entries: str) -> _Search:
     drive, minimise = given.get("drive"), None if move.front is None else move.front.minimise[0]
     start = 0.0 if drive is None else float(quantity(given["start"], "angle", "start", bare=True))
 
+    usual = [] if least.beside is None else least.beside.rows[:1]
+
     def line(longest: Quantity | None, points: int) -> TimeFront:
         return front_of(least, move, minimise or "", given, (longest, points))
 
@@ -154,7 +156,7 @@ def _of_move(move: MoveEntries, entries: str) -> _Search:
         return known, front.unit, front.status is Status.OPTIMAL
 
     def motion(time: float | None) -> _Motion:
-        facts = fact_sentences(least.proof_rows())
+        facts = fact_sentences([*least.proof_rows(), *usual])
         if minimise is None or time is None or time <= least.duration * (1.0 + LEAST_TIME_GAP) ** 2:
             words = "No law of this order and degree is faster within the limits."
             trust = verdict(least.status, gap_text(least.gap), [*facts, *least.notes], words)

@@ -13,7 +13,6 @@ from textwrap import fill
 from typing import Any
 
 from optlaws.cycles.axes.interlock import After
-from optlaws.cycles.usual_law import USUAL
 from optlaws.entries.declared import Declared
 from optlaws.entries.reference import sentences
 from optlaws.entries.value_types import Measured, Number, Whole
@@ -25,7 +24,7 @@ from optlaws.jobs.fastest import FastestProblemFile
 from optlaws.jobs.machine_laws import MachineLawsProblemFile
 from optlaws.jobs.solutions import SolutionsProblemFile
 from optlaws.jobs.starters.starter_numbers import DERIVATIVES, TYPES, numbers_of
-from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.laws.catalogue.catalogue import USUAL, catalogue
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import Motor
 from optlaws.mechanisms.linkages.mechanism import Mechanism

@@ -14,6 +14,8 @@ from optlaws.kept import kept_property
 if TYPE_CHECKING:
     from optlaws.laws.catalogue.entry import CatalogueEntry
 
+#: the law that cams and servo axes have where nothing else is said
+USUAL = "modified sine"
 ALIKE = 0.6  # a likeness of names below it is chance
 
 _LONGEST = 200
