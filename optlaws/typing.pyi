@@ -26,7 +26,8 @@ from .cycles.answers import PlotOver as PlotOver
 from .cycles.specification.limits import LimitTaken as LimitTaken
 from .cycles.moves.time_front import TimePoint as TimePoint
 from .cycles.transitions import TransitionKind as TransitionKind
-from .cycles.old_tables.stretches import MoveGain as MoveGain, Stretch as Stretch
+from .cycles.old_tables.better_laws import MoveGain as MoveGain
+from .cycles.old_tables.stretches import Stretch as Stretch
 from .cycles.specification.segments import CycleSegment as CycleSegment
 from .exports.front_export import FrontExport as FrontExport, MoveStatus as MoveStatus, RunTimeMove as RunTimeMove
 from .formulas.tree import Formula as Formula

@@ -8,8 +8,9 @@ import numpy as np
 
 from optlaws.cycles.answers import Answers, answer
 from optlaws.cycles.axes.enclosed import SimplePolygon
+from optlaws.cycles.old_tables.better_laws import nothing_to_better
 from optlaws.cycles.old_tables.reading import CamPoints, points_in
-from optlaws.cycles.old_tables.stretches import law_of_move, nothing_to_better
+from optlaws.cycles.old_tables.stretches import law_of_move
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.optimisation.optimal import halved
 from optlaws.cycles.optimisation.shared_limits import _SharedLimit as SharedLimit

@@ -18,7 +18,8 @@ from optlaws.cli.show import Answer, busy
 from optlaws.cli.show import save as save_json
 from optlaws.cli.synthesis.run import check_folder, written
 from optlaws.echo import shortened
-from optlaws.errors import InputError, located
+from optlaws.errors import InfeasibleProblem, InputError, located
+from optlaws.sentences import joined, sentence
 from optlaws.synthesis.status import Status
 
 if TYPE_CHECKING:
@@ -166,6 +167,9 @@ def _old_cam(
         old = optlaws.read_cycle_table(file, **how)
         new = None if cam["modernise"] is None else old.bettered(_tolerance(cam["modernise"], old))
     latest, report = new or old, OldTableReport(old, new)
+    if new is not None and (save or chosen) and not any(part.solution for part in new.stretches):
+        reasons = joined("; ", report.unchanged)
+        raise InfeasibleProblem(sentence("nothing is written, as no move has a better law: {}", reasons))
     files, lines = {}, []
     if save is not None:
         files["saved"] = str(_save(latest, save, file, speed))

@@ -10,13 +10,15 @@ from typing import Any
 
 import numpy as np
 
+from optlaws.cycles.old_tables.better_laws import gain
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
-from optlaws.cycles.old_tables.stretches import Stretch, gain, law_of_move, moves_at_ends, nothing_to_better
+from optlaws.cycles.old_tables.stretches import Stretch, law_of_move
 from optlaws.cycles.old_tables.table import OldTable
 from optlaws.kept import kept_property
 from optlaws.laws.report import law_panels
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import bounded
+from optlaws.sentences import sentence
 from optlaws.shown.report import Panel, ReportSegment, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import NO_MARK
@@ -53,12 +55,10 @@ class OldTableReport:
     def unchanged(self) -> Iterator[str]:
         """Moves that keep their laws, and why."""
         for part, was in self._pairs:
-            if part.law is was.law:
-                what = nothing_to_better(law_of_move(part))
-                moving = "it moves at an end, where no law from rest to rest is in its place"
-                ends = moving if moves_at_ends(law_of_move(part)) else "none of degree 15 so near has less acceleration"
-                why = f"it is {what}" if what else ends
-                yield f"the {part.kind} from {part.start:g} keeps its law: {why}"
+            if part.law is was.law and part.kept:
+                yield sentence(
+                    "the {} from {} keeps its law: {}", part.kind, f"{part.start:g}", self.table.why_kept(part)
+                )
 
     @property
     def _pairs(self) -> list[tuple[Stretch, Stretch]]:

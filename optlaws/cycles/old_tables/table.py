@@ -11,21 +11,14 @@ from typing import Any
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.old_tables.better_laws import MoveGain, bettered, gain
 from optlaws.cycles.old_tables.frame import closed, in_order, in_unit, of_lobe, period_of, whole_turn
 from optlaws.cycles.old_tables.motion import NOISE_ROOM, motion_of
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.reading import CamPoints, TableUnits, points_in
 from optlaws.cycles.old_tables.samples import samples_of
 from optlaws.cycles.old_tables.stated_functions import stretches_of_pieces
-from optlaws.cycles.old_tables.stretches import (
-    MoveGain,
-    Stretch,
-    better,
-    gain,
-    position,
-    seam_of,
-    stretches_of,
-)
+from optlaws.cycles.old_tables.stretches import Stretch, position, seam_of, stretches_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, Rise
 from optlaws.errors import InputError, located
 from optlaws.files import reading
@@ -148,8 +141,10 @@ class OldTable:
     def bettered(self, tolerance: float, *, order: int = 3, degree: int = 15) -> OldTable:
         """The table with the laws of least acceleration that stay within a tolerance of the old laws everywhere.
 
-        A move keeps its law where no law of this order and degree within the tolerance has less acceleration, and where
-        it has no acceleration or no jerk, as one at constant velocity.
+        A new law begins and ends with the position, the velocity and, from order 3 on, the acceleration of the old one,
+        so that moves meet as before, also where they turn or go on. A move keeps its law where no law of this order and
+        degree within the tolerance has less acceleration, and where it has no acceleration or no jerk, as one at
+        constant velocity: `kept` of its stretch says why, and `needs` a tolerance within which one has less.
 
         Parameters
         ----------
@@ -173,7 +168,7 @@ class OldTable:
         ['-10.9% of rise', '-10.9% of return']
         """
         room = positive(tolerance, "tolerance")
-        return replace(self, stretches=tuple(better(part, room, order, degree) for part in self.stretches))
+        return replace(self, stretches=tuple(bettered(self.stretches, room, order, degree)))
 
     def gains(self, old: OldTable) -> tuple[MoveGain, ...]:
         """Gains of each move over the moves of an older table: peaks, and the deviation.
@@ -313,6 +308,12 @@ class OldTable:
         if high == inf:
             return sentence("{} above {}, how much cannot be known from this table", QUANTITIES[nu], least)
         return sentence("{} {} to {}", QUANTITIES[nu], f"{low:.4g}", most)
+
+    def why_kept(self, part: Stretch) -> str:
+        """Why a move keeps its law, with a tolerance within which one has less acceleration."""
+        return (
+            sentence("{}; within {} one has", part.kept, Amount(part.needs, self.unit, 3)) if part.needs else part.kept
+        )
 
     def law_in_words(self, part: Stretch) -> str:
         """The standard law of a move, or the nearest standard law, with the deviation of the points from it."""

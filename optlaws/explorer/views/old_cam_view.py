@@ -11,10 +11,11 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from optlaws import Cycle, Solution
+from optlaws import Cycle
+from optlaws.cycles.old_tables.better_laws import bettered
 from optlaws.cycles.old_tables.reading import points_in
 from optlaws.cycles.old_tables.report import OldTableReport
-from optlaws.cycles.old_tables.stretches import better
+from optlaws.cycles.old_tables.stretches import Stretch
 from optlaws.cycles.old_tables.table import OldTable, table_of
 from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Number, Text, Whole
@@ -24,11 +25,11 @@ from optlaws.explorer.views.law_view import refusing
 from optlaws.explorer.views.panel_data import panel_data, segments_data, table_data
 from optlaws.explorer.views.requests import stored_law
 from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.sentences import sentence
 from optlaws.shown.report import Panel
 from optlaws.tolerances import AGREEMENT
 
 _MOST_DRAWN = 1500  # points
-_MOST_MOVES = 100
 _ORDER, _DEGREE = 3, 15
 _PARTS = 500.0  # of a stroke: one is the tolerance where none was given
 
@@ -126,26 +127,20 @@ def _trust(old: OldTable) -> dict[str, Any]:
 @refusing("no better law")
 def move(request: CycleRequest) -> dict[str, Any]:
     """A law of least acceleration within the tolerance of a move's old law, as its solution; or the reason for none."""
-    return _better(OldCamEntries.from_dict(request.study), request.axis)
-
-
-_LAST: dict[tuple[OldCamEntries, int], Solution] = {}
-
-
-@lru_cache(maxsize=128)
-def _better(entries: OldCamEntries, number: int) -> dict[str, Any]:
+    entries, number = OldCamEntries.from_dict(request.study), request.axis
     old = table(entries)
     if number >= len(old.moves):
         raise InputError(f"the table has {len(old.moves)} moves, and no move {number}")
-    # while a tolerance is dragged each problem is next to the last one of the move
-    key = replace(entries, within=None, speed=None), number
-    new = better(old.moves[number], _within(old, entries), _ORDER, _DEGREE, _LAST.pop(key, None))
+    new = [part for part in _bettered(replace(entries, speed=None)) if part.law is not None][number]
     if new.solution is None:
-        return {"law": None, "kept": "keeps its law: none of degree 15 so near has less acceleration"}
-    _LAST[key] = new.solution
-    while len(_LAST) > _MOST_MOVES:
-        del _LAST[next(iter(_LAST))]
+        return {"law": None, "kept": sentence("keeps its law: {}", old.why_kept(new))}
     return {"law": new.solution.to_dict()}
+
+
+@lru_cache(maxsize=16)
+def _bettered(entries: OldCamEntries) -> list[Stretch]:
+    old = table(entries)
+    return bettered(old.stretches, _within(old, entries), _ORDER, _DEGREE)
 
 
 def cycle(request: CycleRequest) -> Cycle:

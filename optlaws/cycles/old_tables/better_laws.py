@@ -1,0 +1,270 @@
+"""Better laws in the moves of a table: of least acceleration, within a tolerance of the old laws, from end to end."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Sequence
+from dataclasses import replace
+from functools import lru_cache
+from math import inf, isfinite
+from typing import NamedTuple
+
+import numpy as np
+
+from optlaws.cycles.old_tables.peak_intervals import PeakInterval
+from optlaws.cycles.old_tables.stretches import Stretch, law_of_move
+from optlaws.errors import InfeasibleProblem, SolverFailure
+from optlaws.laws import MotionLaw
+from optlaws.numbers import Array
+from optlaws.numerics.bernstein import greatest_difference
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.ranges import at_most
+from optlaws.synthesis.problem.windows import Window, via
+from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.solve import synthesize
+from optlaws.synthesis.spaces.bases import Chebyshev
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+
+Ends = tuple[tuple[float, ...], tuple[float, ...]]
+
+_JERK = 1.2  # of an old law's greatest jerk: what a law of less acceleration in its place may have
+_RAMP = 0.1  # of a move: over so much of it a jump of the acceleration at its end is taken
+_SAME = 1e-6  # of a greatest velocity or acceleration: what differs by less is the same
+_LEAST_GAIN = 1e-6  # of an acceleration: what is less is rounding
+_ASKED = 0.999  # of a tolerance: what is asked at places, so that a law is within all of it between them
+_FIRST = 8  # parts between the places with which the search begins
+_APART = 2e-3  # of a move: places that are nearer to a new one give way to it
+_ROUNDS = 30
+_LOOKS = 800  # places at which the difference of two laws is looked at for its extremes
+_STEPS = 5  # of Newton's method towards an extreme
+_MOST = 0.25  # of a stroke: tolerances beyond it are none
+
+
+class MoveGain(NamedTuple):
+    """The gain of a move over an old one, in units of the table.
+
+    Attributes
+    ----------
+    kind
+        "rise" or "return".
+    start, stop
+        Where it is, in units of the master.
+    old, new
+        The peaks of velocity, acceleration and jerk by the master; inf where one has no greatest value.
+    deviation
+        The greatest difference of positions, over the whole move.
+    intervals
+        Between which values the old peaks are by the table; empty where the old move is of no table.
+
+    Examples
+    --------
+    >>> round(MoveGain("rise", 0.0, 120.0, (1.0, 2.0, 3.0), (1.0, 1.5, 3.3), 0.05).share(2), 3)
+    -0.25
+    """
+
+    kind: str
+    start: float
+    stop: float
+    old: tuple[float, float, float]
+    new: tuple[float, float, float]
+    deviation: float
+    intervals: tuple[PeakInterval, ...] = ()
+
+    def shares(self, nu: int) -> tuple[float, float]:
+        """The least and the greatest relative change of the peak of order nu, 1 to 3, that the table leaves open.
+
+        Examples
+        --------
+        >>> known = PeakInterval(0.9, 1.1), PeakInterval(1.6, 2.5), PeakInterval(2.5, float("inf"))
+        >>> gain = MoveGain("rise", 0.0, 120.0, (1.0, 2.0, 3.0), (1.0, 1.5, 3.3), 0.05, known)
+        >>> [round(share, 3) for share in gain.shares(2)], gain.shares(3)[0]
+        ([-0.4, -0.062], -1.0)
+        """
+        low, high = self.intervals[nu - 1] if self.intervals else (0.0, 0.0)
+        if not high > 0.0:
+            return self.share(nu), self.share(nu)
+        return self.new[nu - 1] / high - 1.0, self.new[nu - 1] / low - 1.0 if low > 0.0 else float("inf")
+
+    def share(self, nu: int) -> float:
+        """The relative change of the peak of order nu, 1 to 3; nan if the old one is infinite or 0."""
+        old, new = self.old[nu - 1], self.new[nu - 1]
+        return new / old - 1.0 if isfinite(old) and old > 0.0 else float("nan")
+
+
+def bettered(stretches: Sequence[Stretch], room: float, order: int, degree: int) -> list[Stretch]:
+    """Stretches with the laws of least acceleration within a tolerance of theirs; moves without such say why.
+
+    A new law begins and ends with the position and the velocity of the old one. Beside a dwell or constant velocity its
+    further derivatives, as many as its order says, are 0; where two moves go on into each other they are those of both
+    new laws, by the move of the greater acceleration; at a corner they are free.
+    """
+    moves = [i for i, part in enumerate(stretches) if part.law is not None]
+    moves.sort(key=lambda i: -_acceleration(stretches[i]))
+    kept = dict[int, Stretch]()
+    while True:
+        found, known = [kept.get(i, part) for i, part in enumerate(stretches)], set(kept)
+        for i in moves:
+            if i in kept:
+                continue
+            found[i] = _better(found, known, i, room, order, degree)
+            known.add(i)
+            if found[i].kept:
+                # moves beside it are to go on into its old law
+                kept[i] = found[i]
+                break
+        else:
+            return found
+
+
+def _acceleration(part: Stretch) -> float:
+    return law_of_move(part).constants.C.value * abs(part.stroke) / (part.stop - part.start) ** 2
+
+
+def _better(
+    found: Sequence[Stretch], known: Container[int], number: int, room: float, order: int, degree: int
+) -> Stretch:
+    """A move with a better law, between those that are known of others; or why it keeps its own."""
+    part = found[number]
+    old, share = law_of_move(part), room / abs(part.stroke)
+    what = nothing_to_better(old)
+    if what:
+        return replace(part, kept=f"it is {what}")
+    ends = _ends(found, known, number, order)
+    if any(abs(value) >= old.constants.C.value * (1.0 - _LEAST_GAIN) for state in ends for value in state[2:3]):
+        return replace(part, kept="its acceleration is greatest where it goes on into a move that keeps its law")
+    try:
+        solution = _least(old, share, order, degree, ends)
+        why = f"none of order {order} and degree {degree} so near has less"
+    except InfeasibleProblem:
+        solution, why = None, f"no law of order {order} and degree {degree} is so near"
+    except SolverFailure:
+        solution, why = None, f"the search for a law of order {order} and degree {degree} so near failed"
+    if solution is not None:
+        return replace(part, law=solution.law, solution=solution, peaks=())
+    return replace(part, kept=why, needs=abs(part.stroke) * _enough(old, share, order, degree, ends))
+
+
+def nothing_to_better(old: MotionLaw) -> str:
+    """What a law is whose acceleration or jerk is 0, so that none in its place has less; empty for any other law.
+
+    >>> from optlaws import catalogue
+    >>> nothing_to_better(catalogue["constant velocity"].law), nothing_to_better(catalogue["cycloidal"].law)
+    ('at constant velocity, without acceleration or jerk', '')
+    """
+    if old.constants.C.value == 0.0:
+        return "at constant velocity, without acceleration or jerk"
+    return "at constant acceleration, without jerk" if old.constants.J.value == 0.0 else ""
+
+
+def _ends(found: Sequence[Stretch], known: Container[int], number: int, order: int) -> Ends:
+    """The states at the ends of a move: position and velocity, and as many further derivatives as are known."""
+    part = found[number]
+    old, length = law_of_move(part), part.stop - part.start
+    states = []
+    for place, own in enumerate(old.boundary_values(max(order, 2))):
+        other = (number - 1 + 2 * place) % len(found)
+        beside, per = found[other], [length**nu / part.stroke for nu in range(order)]
+        same = _SAME * old.constants.B.value
+        if beside.line is not None:
+            goes_on = [0.0, beside.line, *[0.0] * order]
+        else:
+            law = law_of_move(beside)
+            ratio = beside.stop - beside.start
+            values = law.boundary_values(max(order, 2))[1 - place]
+            goes_on = [value * beside.stroke / ratio**nu for nu, value in enumerate(values)]
+        velocity = 0.0 if abs(own[1]) <= same else own[1]
+        meets = abs(velocity - goes_on[1] * per[1]) <= same if order > 1 else False
+        settled = beside.line is not None or other in known or other == number
+        further = [goes_on[nu] * per[nu] for nu in range(2, order)] if meets and settled else []
+        states.append((float(place), velocity, *further)[:order])
+    return states[0], states[1]
+
+
+def _enough(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) -> float:
+    """A tolerance, as a share of the stroke, within which a law has less acceleration; 0 where none was found."""
+    while (share := 2.0 * share) <= _MOST:
+        try:
+            if _least(old, share, order, degree, ends) is not None:
+                return share
+        except (InfeasibleProblem, SolverFailure):
+            continue
+    return 0.0
+
+
+@lru_cache(maxsize=256)
+def _least(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) -> Solution | None:
+    """The law of least acceleration within a share of the stroke of an old one; None where none has less.
+
+    It is found by cutting planes: asked at a few places, which those join where it is beyond the tolerance. Its jerk is
+    bounded by that of the old law, or by what takes its jumps at the ends over a part of the move.
+    """
+    C, J = old.constants.C.value, old.constants.J.value
+    jumps = [abs(was[2] - now) for was, state in zip(old.boundary_values(3), ends, strict=True) for now in state[2:3]]
+    jerk = _JERK * max([J, *(jump / _RAMP for jump in jumps)])
+    same = min(len(state) for state in ends)
+    known = [
+        via(quantity, value, at=state[0]) for state in ends for quantity, value in zip("cj", state[same:], strict=False)
+    ]
+    conditions = BoundaryConditions(*(state[:same] for state in ends))
+    basis = Chebyshev(degree + 2 * (order - same))
+    places = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, _FIRST) / _FIRST)
+    solution = None
+    for _ in range(_ROUNDS):
+        heights = np.asarray(old(places))
+        windows = [
+            Window("a", height - _ASKED * share, height + _ASKED * share, k, k)
+            for k, height in zip(places.tolist(), heights.tolist(), strict=True)
+        ]
+        problem = Problem(
+            basis=basis, symmetric=False, boundary=conditions, J=at_most(jerk) if isfinite(jerk) else None,
+            windows=(*known, *windows),
+        )  # fmt: skip
+        solution = synthesize(problem, start=solution)
+        law = solution.law
+        if law.constants.C.value >= C * (1.0 - _LEAST_GAIN):
+            return None
+        if deviation(law, old) <= share:
+            return solution
+        beyond = _beyond(law, old, share)
+        binding = np.abs(np.asarray(law(places)) - heights) > 0.95 * share
+        near = np.abs(places[:, None] - beyond).min(axis=1) <= _APART
+        places = np.sort(np.concatenate([places[binding & ~near], beyond]))
+    raise SolverFailure("the places where a law is at its tolerance do not settle", problem=problem)
+
+
+def _beyond(law: MotionLaw, old: MotionLaw, share: float) -> Array:
+    """Where the difference of two laws is greatest, of those places at which it is more than a share."""
+
+    def apart(k: Array, nu: int) -> Array:
+        return np.asarray(law(k, nu=nu)) - np.asarray(old(k, nu=nu))
+
+    k = np.unique([*np.linspace(0.0, 1.0, _LOOKS), *old.breaks])
+    slope = apart(k, 1)
+    turns = np.flatnonzero(slope[:-1] * slope[1:] <= 0.0)
+    low, high = k[turns], k[turns + 1]
+    at = 0.5 * (low + high)
+    for _ in range(_STEPS):
+        bend = apart(at, 2)
+        at = np.clip(at - apart(at, 1) / np.where(bend == 0.0, inf, bend), low, high)
+    at = np.append(at, greatest_difference(law, old, _breaks(law, old))[1])
+    at = np.unique(at[np.abs(apart(at, 0)) > share])
+    return at[np.diff(at, prepend=-1.0) > _SAME]
+
+
+def gain(new: Stretch, old: Stretch) -> MoveGain:
+    """The gain of a move over the old move in its place."""
+    laws = law_of_move(new), law_of_move(old)
+    size, length = abs(old.stroke), old.stop - old.start
+    after, before = (
+        (B.value * size / length, C.value * size / length**2, J.value * size / length**3)
+        for B, C, J in ((law.constants.B, law.constants.C, law.constants.J) for law in laws)
+    )
+    return MoveGain(old.kind, old.start, old.stop, before, after, size * deviation(*laws), old.peaks)
+
+
+def deviation(law: MotionLaw, other: MotionLaw) -> float:
+    """The greatest difference of two laws over the whole of k."""
+    return abs(float(greatest_difference(law, other, _breaks(law, other))[0]))
+
+
+def _breaks(law: MotionLaw, other: MotionLaw) -> Array:
+    return np.unique([0.0, 1.0, *law.breaks, *other.breaks])
