@@ -30,17 +30,18 @@ if TYPE_CHECKING:
 
 _GROUP = "The table of an old cam"
 _SEGMENTS = "the cycle, whose segments are the stretches of the table"
+_HOW = options(
+    "optlaws.cycles.old_tables.table:read_cycle_table",
+    *("unit", "master", "cam", "turn", "advance", "rows", "lobes", "tolerance"),
+    group=_GROUP,
+    columns=COLUMNS,
+)
 
 
 @takes(
     "Draw all axes, the points and laws of an old cam, or with `--fastest` the motion at that speed, into this file, "
     "PNG or SVG.",
-    how=options(
-        "optlaws.cycles.old_tables.table:read_cycle_table",
-        *("unit", "master", "cam", "turn", "advance", "rows", "lobes", "tolerance"),
-        group=_GROUP,
-        columns=COLUMNS,
-    ),
+    how=_HOW,
 )
 def cycle(
     file: Path,
@@ -86,7 +87,8 @@ def cycle(
                 "--fastest needs a problem file: --save writes one from the table, in which you enter the limits"
             )
         return _old_cam(file, how, cam, out=out, plot=plot)
-    for name, value in given({**how, **cam}).items():
+    said = {name: value for name, value in how.items() if value != _HOW[name].default}
+    for name, value in given({**said, **cam}).items():
         raise InputError(f"--{name} is of the table of an old cam, got {shortened(value)} with a problem file")
     if fastest:
         return _greatest_speed(file, out)
