@@ -31,6 +31,7 @@ ISG, _ISG_DIGIT = "ISG and TwinCAT CNC", 1e-4
 _HEADER, _BLANK = re.compile(r"([A-Za-z][\w \t-]*?)\s*=\s*(\S+)"), re.compile(r"\s")
 _KEYWORD = re.compile(r"[\s;]")
 _SEPARATORS = (";", "\t", ",", "|", None)
+_LOOKED_AT = 500  # lines by which the separator is chosen
 #: a heading up to its unit
 _HEADING = re.compile(r"[^\s,;(\[]*")
 #: columns of tables that optlaws writes
@@ -134,6 +135,10 @@ def rate_of(places: Array, heights: Array, velocities: Array, lines: Sequence[in
     (5.0, 1.0)
     """
     steps, means = np.diff(places), 0.5 * (velocities[1:] + velocities[:-1])
+    if not np.all(steps > 0.0):
+        raise InputError(
+            f"line {lines[int(np.argmax(steps <= 0.0)) + 1]}: places of points with velocities must increase"
+        )
     way = float(np.abs(np.diff(heights)).sum())
     rate = float(np.abs(steps * means).sum()) / way if way else 1.0
     off = np.abs(means - rate * np.diff(heights) / steps) / max(float(np.abs(velocities).max()), np.finfo(float).tiny)
@@ -180,7 +185,8 @@ def _of_lines_and_polynomials(points: TablePoints, *, first_is_line: bool) -> Ta
     """
     if len(points.places) % 2:
         raise InputError(
-            f"lines and polynomials alternate over an even number of points, and the table has {len(points.places)}"
+            f"line {points.lines[-1]}: lines and polynomials alternate over an even number of points, and the table "
+            f"has {len(points.places)}"
         )
     rows = [*zip(points.places, points.heights, strict=True), (points.places[0] + 360.0, points.heights[0])]
     both = ["line", "polyfive"] if first_is_line else ["polyfive", "line"]
@@ -192,7 +198,8 @@ def _of_lines_and_polynomials(points: TablePoints, *, first_is_line: bool) -> Ta
 def _lines_of(content: str, name: str) -> tuple[list[_Line], list[str]]:
     """The lines from the first point on, by the separator that makes most of them points, and the headings above."""
     texts = [(number, line) for number, line in enumerate(uncommented(content).splitlines(), 1) if line.strip(" |:-\t")]
-    separator = max(_SEPARATORS, key=lambda mark: sum(_fit(cells_of(line, mark)) for _, line in texts))
+    some = texts[:: max(1, len(texts) // _LOOKED_AT)]
+    separator = max(_SEPARATORS, key=lambda mark: sum(_fit(cells_of(line, mark)) for _, line in some))
     lines = [_Line(number, cells_of(line, separator)) for number, line in texts]
     first = next((i for i, line in enumerate(lines) if len(line.numeric) > 1), None)
     if first is None:

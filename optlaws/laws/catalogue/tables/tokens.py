@@ -80,7 +80,8 @@ def cells_of(line: str, separator: str | None) -> list[str]:
     if separator == "|":
         line = line.removeprefix("|").removesuffix("|")
     try:
-        cells = line.split() if separator is None else next(csv.reader([line], delimiter=separator))
+        plain = separator is None or '"' not in line
+        cells = line.split(separator) if plain else next(csv.reader([line], delimiter=separator or ""))
     except csv.Error:
         return []
     return [cell.strip().strip('"') for cell in cells]
