@@ -79,3 +79,23 @@ def test_lobes_of_stated_functions_and_of_the_command(tmp_path: Path, capsys: py
     assert "return 330 360 -12 3-4-5 polynomial" in " ".join(capsys.readouterr().out.split())
     with pytest.raises(InputError, match=r"cam\.st: the rows go over 120 of the master, more than a turn of 90"):
         read_cycle_table(file, lobes=4)
+
+
+@pytest.mark.parametrize("damage", ["12;3,x", "12;", "12;1,234.5", "12;3;4", "6;3"])
+def test_nothing_is_written_of_a_damaged_table(
+    damage: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    lines = [f"{angle:.0f};{height:.3f}" for angle, height in zip(DEGREES, lift(DEGREES), strict=True)]
+    Path("cam.csv").write_text("\n".join([*lines[:6], damage, *lines[7:]]))
+    ways = (
+        ["--save", "cam.toml"],
+        ["--export", "csv"],
+        ["--plot", "cam.svg"],
+        ["--modernise", "0.1mm", "--save", "b.toml"],
+    )
+    for way in ways:
+        assert exit_code(["cycle", "cam.csv", "--speed", "60rpm", *way]) == 2
+        assert "line" in (error := capsys.readouterr().err)
+        assert " 7" in error
+    assert [file.name for file in tmp_path.iterdir()] == ["cam.csv"]

@@ -198,7 +198,7 @@ def test_functions_of_our_exports_come_back_as_the_cycle_they_were(name: str, tm
 
 
 def test_the_law_of_a_controller_is_that_which_runs(tmp_path: Path) -> None:
-    file = tmp_path / "rise.txt"
+    file = tmp_path / "rise.st"
     file.write_text("(MasterPos := 0.0, SlavePos := 5.0, SlaveVelo := 0.0, SlaveAcc := 0.0, SlaveJerk := 0.0, "
                     "FunctionType := 15),\n(MasterPos := 90.0, SlavePos := 25.0, SlaveVelo := 0.0, SlaveAcc := 0.0, "
                     "SlaveJerk := 0.0, FunctionType := 15)")  # fmt: skip
@@ -207,5 +207,5 @@ def test_the_law_of_a_controller_is_that_which_runs(tmp_path: Path) -> None:
     assert law(k) == pytest.approx(QUINTIC(k), abs=1e-14)
     assert law.constants.C.value == pytest.approx(catalogue["3-4-5 polynomial"].law.constants.C.value)
     file.write_text(file.read_text().replace("25.0", "5.0"))
-    with pytest.raises(InputError, match=r"rise\.txt: it ends where it begins, .* read_cycle_table"):
+    with pytest.raises(InputError, match=r"rise\.st: it ends where it begins, .* read_cycle_table"):
         read_law(file)

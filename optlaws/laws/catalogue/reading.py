@@ -92,8 +92,8 @@ def read_law(
     text
         A name or code of the catalogue ("modified sine", "0317(1,5)"), a member of Savin's families by alpha or B
         ("III(7.2)", "III(B=1.8)"), a formula of k ("formula: k - sin(2*pi*k)/(2*pi)"), the JSON text of a law, which
-        begins with "{", a JSON file with a law, alone or of a solution, a file with a table of points (.csv, .txt,
-        .tsv, .tab, .dat), whose tolerance and columns may stand behind it in brackets:
+        begins with "{", a JSON file with a law, alone or of a solution, any other file with a table of points or of a
+        controller; of a table (.csv, .txt, .tsv, .tab, .dat) the tolerance and columns may stand behind it in brackets:
         "old.csv(tolerance=0.02; columns=1,3)".
     tolerance
         How far the law of a table may be off its points, in the unit of its displacements, 0 for a law through them;
@@ -123,7 +123,7 @@ def read_law(
     if isinstance(text, str) and member(text) is None and is_file(text):
         name, options = _of_table(text)
         file, tolerance, columns = Path(name), options.get("tolerance", tolerance), options.get("columns", columns)
-    if file is not None and file.suffix.lower() in _TABLES:
+    if file is not None and file.suffix.lower() not in {".json", ""}:
         return law_of_points(file, tolerance, columns)
     if tolerance is not None or columns is not None:
         raise InputError(

@@ -163,7 +163,9 @@ def _of_yaml(text: str, cam: str | None) -> str:
     def of_joint(match: re.Match[str]) -> str:
         cells = match[2].split(",")
         if len(cells) != len(joints):
-            raise InputError(f"line {line_of(text, match.start())}: {len(cells)} {match[1]} of {len(joints)} joints")
+            raise InputError(
+                f"line {line_of(text, match.start())}: {len(cells)} {match[1]} of {len(joints)} joints: mend it"
+            )
         return f"{match[1]} := {cells[place].strip()}"
 
     # digits of the seconds and of the nanoseconds, so that none is lost
@@ -182,7 +184,7 @@ def _records(layout: FieldLayout, fields: Sequence[tuple[str | None, str, TextCe
             yield record
             record = _Record()
         if role in record:
-            raise InputError(f"line {value.line}: {name} is repeated in an element of {layout.name}")
+            raise InputError(f"line {value.line}: {name} is repeated in an element of {layout.name}: leave one out")
         if role == begins and index is not None:
             if int(index) != before + 1:
                 raise InputError(f"line {value.line}: element {index} follows element {before}; mend the file")
@@ -212,15 +214,15 @@ def _of_records(layout: FieldLayout, records: Sequence[_Record]) -> TablePoints:
             names = {role: name for name, role in layout.roles.items()}
             fields = ", ".join(sorted(names[role] for role in missing or record.keys() - records[0].keys()))
             raise InputError(
-                f"line {line}: an element of {layout.name} has {'no' if missing else 'a'} {fields}, unlike the first"
+                f"line {line}: an element of {layout.name} has {'no' if missing else 'a'} {fields}, unlike the first: "
+                "mend the element"
             )
-    roles = records[0].keys()
+    roles, lines = records[0].keys(), [next(iter(record.values())).line for record in records]
     if "x" not in roles:
-        return TablePoints.of_pieces(list(_pieces(layout, records)), layout.name)
+        return TablePoints.of_pieces(list(_pieces(layout, records)), layout.name, lines=lines)
     points = list(map(_point, records))
     profiles = [_profile(layout, record) for record in records]
     straight = "type" in roles and all(profile and degree_of(profile) == 1 for profile in profiles[:-1])
-    lines = [next(iter(record.values())).line for record in records]
     if ("type" not in roles and min(map(len, points)) < 3) or (straight and len(points) >= FEWEST_POINTS):
         # samples of a motion, whatever runs between them
         places, heights = ([point[i] for point in points] for i in (0, 1))
@@ -275,7 +277,7 @@ def _of_arrays(text: str) -> TablePoints | None:
     arrays = []
     for match in _ARRAY.finditer(text):
         if (stop := _closed(text, match.end())) is None:
-            raise InputError(f"line {line_of(text, match.end())}: an array does not end")
+            raise InputError(f"line {line_of(text, match.end())}: an array does not end: add its bracket")
         arrays.append((match[1], match.end(), text[match.end() : stop]))
     named = {name: item for item in arrays for name in ("breaks", "coefficients") if re.search(rf"{name}\b", item[0])}
     if len(named) == 2:
@@ -293,7 +295,7 @@ def _of_rows(text: str, rows: list[list[TextCell]]) -> TablePoints | None:
     width = len(rows[0])
     for row in rows:
         if len(row) != width:
-            raise InputError(f"line {row[0].line}: a row of {len(row)} numbers among rows of {width}")
+            raise InputError(f"line {row[0].line}: a row of {len(row)} numbers among rows of {width}: mend the row")
     if width == _CALCULATED:
         return _of_cam_profile(_used(rows))
     if width not in {2, 3, 5}:
@@ -334,7 +336,7 @@ def _pairs(head: str, flat: list[TextCell]) -> list[list[TextCell]]:
     if re.search(r"(?:0\s*\.\.\s*1|1\s*\.\.\s*2)", bounds[3]) is None:
         raise InputError(f"line {flat[0].line}: an array of points has two columns, master and slave")
     if flat and len(flat) % 2:
-        raise InputError(f"line {flat[-1].line}: {len(flat)} numbers are no pairs of master and slave")
+        raise InputError(f"line {flat[-1].line}: {len(flat)} numbers are no pairs of master and slave: mend them")
     return [flat[i : i + 2] for i in range(0, len(flat), 2)]
 
 
@@ -365,7 +367,7 @@ def _of_cam_profile(rows: Sequence[Sequence[TextCell]]) -> TablePoints:
         with _in_line({"x": row[0]}):
             pieces.append(powers(x, stop, [y + constants[0], *constants[1:]]))
     if len(values) < FEWEST_POINTS:
-        return TablePoints.of_pieces(pieces, "Rockwell CAM_PROFILE")
+        return TablePoints.of_pieces(pieces, "Rockwell CAM_PROFILE", lines=[row[0].line for row in rows])
     # the points are the cam, and the spline through them the controller's
     places, heights = ([numbers[i] for numbers in values] for i in (0, 1))
     return TablePoints(places, heights, resolution_of(list(map(repr, heights)), heights), "Rockwell CAM_PROFILE")
@@ -381,14 +383,17 @@ def _of_source(text: str, named: dict[str, tuple[str, int, str]]) -> TablePoints
         stated = int(bounds[2]) - int(bounds[1]) + 1 if bounds else int(np.prod(sizes)) if sizes else None
         if stated is not None and stated != len(cells[name]):
             line = line_of(text, start)
-            raise InputError(f"line {line}: {name} are stated as {stated} numbers and are {len(cells[name])}")
+            raise InputError(
+                f"line {line}: {name} are stated as {stated} numbers and are {len(cells[name])}: mend them"
+            )
     breaks, flat = ([each.number(suffix="fF") for each in cells[name]] for name in ("breaks", "coefficients"))
-    if len(breaks) < 2 or len(flat) % (len(breaks) - 1):
-        raise InputError(f"{len(flat)} coefficients are no rows for {len(breaks) - 1} pieces")
+    if not flat or len(breaks) < 2 or len(flat) % (len(breaks) - 1):
+        line = line_of(text, named["coefficients"][1])
+        raise InputError(f"line {line}: {len(flat)} coefficients are no rows for {len(breaks) - 1} pieces: mend them")
     width = len(flat) // (len(breaks) - 1)
     rows = [flat[i : i + width] for i in range(0, len(flat), width)]
     pieces = []
     for low, high, row, cell in zip(breaks, breaks[1:], rows, cells["breaks"], strict=False):
         with _in_line({"x": cell}):
             pieces.append(powers(low, high, row))
-    return TablePoints.of_pieces(pieces, "breaks and coefficients")
+    return TablePoints.of_pieces(pieces, "breaks and coefficients", lines=[cell.line for cell in cells["breaks"]])

@@ -174,15 +174,15 @@ def pieces_between(
     return pieces
 
 
-def check_joints(pieces: Sequence[CurvePiece]) -> None:
-    """Refuse pieces that do not follow each other."""
+def check_joints(pieces: Sequence[CurvePiece], lines: Sequence[int]) -> None:
+    """Refuse pieces that do not follow each other; they begin in these lines of their file."""
     size = max(abs(value) for piece in pieces for value in piece.ends)
-    for before, after in pairwise(pieces):
+    for line, (before, after) in zip(lines[1:], pairwise(pieces), strict=False):
         stop, start = before.ends[1], after.ends[0]
         if before.stop != after.start or abs(stop - start) > APART * size:
             raise InputError(
-                f"a piece ends at {before.stop:.9g} with the position {stop:.9g} and the next begins at "
-                f"{after.start:.9g} with {start:.9g}: the pieces do not follow each other"
+                f"line {line}: a piece ends at {before.stop:.9g} with the position {stop:.9g} and the next begins at "
+                f"{after.start:.9g} with {start:.9g}: the pieces do not follow each other, mend one"
             )
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from optlaws.laws.catalogue.tables.curve_pieces import CurvePiece, check_joints
 
@@ -38,12 +37,14 @@ class TablePoints:
     lines: Sequence[int] = ()
 
     @classmethod
-    def of_pieces(cls, pieces: Sequence[CurvePiece], layout: str, **known: Any) -> TablePoints:
+    def of_pieces(
+        cls, pieces: Sequence[CurvePiece], layout: str, lines: Sequence[int], units: tuple[str, str] = ("", "")
+    ) -> TablePoints:
         """Pieces that follow each other, with the points where they meet."""
-        check_joints(pieces)
+        check_joints(pieces, lines)
         places = [*(piece.start for piece in pieces), pieces[-1].stop]
         heights = [*(piece.ends[0] for piece in pieces), pieces[-1].ends[1]]
-        return cls(places, heights, 0.0, layout, tuple(pieces), **known)
+        return cls(places, heights, 0.0, layout, tuple(pieces), units, lines)
 
 
 def resolution_of(texts: Sequence[str], values: Sequence[float]) -> float:

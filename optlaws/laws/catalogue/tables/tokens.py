@@ -43,7 +43,7 @@ class TextCell(NamedTuple):
         except ValueError:
             raise InputError(f"line {self.line}: {no_number(self.text)}") from None
         if not isfinite(value):
-            raise InputError(f"line {self.line}: {self.text} is no finite number")
+            raise InputError(f"line {self.line}: {self.text} is no finite number: mend it")
         return value
 
 
@@ -91,10 +91,10 @@ def no_number(text: str) -> str:
     """What is to be said of a text that should be a number.
 
     >>> no_number("1,234.5"), no_number("12,5 mmm")
-    ("'1,234.5' has separators of thousands: write 1234.5", "'12,5 mmm' is no number")
+    ("'1,234.5' has separators of thousands: write 1234.5", "'12,5 mmm' is no number: mend it")
     """
     if _GROUPED.fullmatch(text) is None:
-        return f"{shortened(text)} is no number"
+        return f"{shortened(text)} is no number: mend it"
     marks = re.findall(r"[.,'’ ]", text)
     decimal = marks[-1] if marks[-1] in ".," and marks.count(marks[-1]) == 1 and len(marks) > 1 else ""
     plain = re.sub(r"[.,'’ ]", lambda match: match[0] if match[0] == decimal else "", text)
