@@ -20,6 +20,7 @@ BASE = {
     "numbers",
     "sentences",
     "shown",
+    "spelling",
     "tolerances",
 }
 KNOWN = BASE | {"numerics", "entries"}
@@ -31,10 +32,11 @@ MAY_IMPORT = {
     "entries": BASE | {"motion"},
     "files": {"echo", "errors", "lazy", "tolerances"},
     "kept": set[str](),
-    "lazy": set[str](),
+    "lazy": {"spelling"},
     "numbers": {"echo", "errors"},
     "sentences": set[str](),
     "shown": {"numbers"},
+    "spelling": set[str](),
     "tolerances": set[str](),
     "numerics": BASE - {"shown"},
     "laws": KNOWN | {"formulas"},

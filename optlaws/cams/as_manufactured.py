@@ -22,7 +22,7 @@ from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Array, NumberOrQuantity, Quantity
+from optlaws.numbers import Array, NumberOrQuantity
 from optlaws.numerics.branch_and_bound import extremes_of_each
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair, turned, variable
@@ -281,7 +281,7 @@ def as_made(
     curve: Literal["profile", "pitch"] = "profile",
     points: int = 721,
     decimals: int = 6,
-    tolerance: Quantity = "1 um",
+    tolerance: NumberOrQuantity = "1 um",
     degree: int = 3,
 ) -> AsMade:
     """The motion of a cam's follower if the cam is cut from a file with the rounding and tolerance of its entries.
@@ -351,7 +351,7 @@ def _cut(cam: DiscCam, curve: str) -> tuple[Outline, float]:
     return (cam.profile, 0.0) if curve == "profile" else (cam.pitch_curve, cam.contact.roller)
 
 
-def with_profile_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:
+def with_profile_error(cam: DiscCam, error: NumberOrQuantity, waves: Any) -> AsMade:
     """The motion of a cam's follower if the profile is off by waves of an amplitude along its normals.
 
     Of four phases of the wave, the greatest values. A wave with n periods in a turn adds about n² times its amplitude
@@ -387,7 +387,7 @@ def with_profile_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:
     return peaks
 
 
-def profile_errors(cam: DiscCam, error: Quantity, waves: Sequence[Any]) -> list[AsMade | None]:
+def profile_errors(cam: DiscCam, error: NumberOrQuantity, waves: Sequence[Any]) -> list[AsMade | None]:
     """What `with_profile_error` finds of so many waves each; None where the follower does not reach all of the cam."""
     amplitude = quantity(error, "length", "error", above=0.0)
     curves = (WavyCurve(cam.profile, amplitude, WAVES.read(count, "waves"), 0.0) for count in waves)

@@ -31,7 +31,7 @@ from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
-from optlaws.numbers import Array, NumberOrQuantity, Quantity, derivative, number_or_array, real_times
+from optlaws.numbers import Array, NumberOrQuantity, derivative, number_or_array, real_times
 from optlaws.numerics.taylor import Jet, variable
 
 LENGTH = Measured("length", above=0.0)
@@ -94,9 +94,9 @@ class BarrelCam:
     """
 
     motion: Cycle | Plan | CamMotion
-    outer_radius: Quantity
-    depth: Quantity
-    roller_radius: Quantity
+    outer_radius: NumberOrQuantity
+    depth: NumberOrQuantity
+    roller_radius: NumberOrQuantity
     turning: Turning = field(default="counterclockwise", kw_only=True)
 
     def __post_init__(self) -> None:
@@ -137,7 +137,9 @@ class BarrelCam:
         check_names([side], SIDES, "side")
         return SpaceCurve(self.displacement, self._within(radius), SIDES[side] * self.roller, sense(self.turning))
 
-    def cutter_path(self, cutter_radius: Quantity, side: Side = "upper", radius: float | None = None) -> SpaceCurve:
+    def cutter_path(
+        self, cutter_radius: NumberOrQuantity, side: Side = "upper", radius: float | None = None
+    ) -> SpaceCurve:
         """The path of the axis of a cutter, radial like the roller's axis, that cuts a flank; exact at one radius.
 
         A cutter as large as the roller makes both flanks all over; a smaller one leaves them exact at the radius given.

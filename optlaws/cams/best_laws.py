@@ -36,7 +36,7 @@ from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, Kind
-from optlaws.numbers import Array, Quantity
+from optlaws.numbers import Array, NumberOrQuantity
 from optlaws.numerics.taylor import Jet
 from optlaws.sentences import joined, sentence
 from optlaws.synthesis.functionals.makers import value
@@ -112,11 +112,11 @@ class BestPrimeCircle:
 @documented_by(CamLimits)
 def best_cam(
     cycle: Cycle,
-    prime_radius: Quantity,
+    prime_radius: NumberOrQuantity,
     follower: CamFollower,
     *,
-    pressure_angle: Quantity | None = None,
-    radius_of_curvature: Quantity | None = None,
+    pressure_angle: NumberOrQuantity | None = None,
+    radius_of_curvature: NumberOrQuantity | None = None,
     turning: Turning = "counterclockwise",
 ) -> BestCam:
     """The optimal laws of a cycle under limits of its cam, at a given prime circle.
@@ -181,8 +181,8 @@ def best_prime_circle(
     cycle: Cycle,
     follower: CamFollower,
     *,
-    pressure_angle: Quantity | None = None,
-    radius_of_curvature: Quantity | None = None,
+    pressure_angle: NumberOrQuantity | None = None,
+    radius_of_curvature: NumberOrQuantity | None = None,
     turning: Turning = "counterclockwise",
 ) -> BestPrimeCircle:
     """The least prime circle that any laws of a cycle's optimal motions allow.

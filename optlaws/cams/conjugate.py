@@ -10,7 +10,7 @@ from optlaws.entries.declared import Declared, ValueOf, declared, documented_by,
 from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.motion.quantities import Exact, quantity
-from optlaws.numbers import NumberOrQuantity, Quantity
+from optlaws.numbers import NumberOrQuantity
 
 #: what gives a pair by what its follower's way is
 _GIVEN_BY = {"length": "distance", "angle": "angle"}
@@ -37,8 +37,8 @@ def conjugate_cam(
     cam: DiscCam,
     follower: CamFollower | None = None,
     *,
-    distance: Quantity | None = None,
-    angle: Quantity | None = None,
+    distance: NumberOrQuantity | None = None,
+    angle: NumberOrQuantity | None = None,
 ) -> DiscCam:
     """The return cam of a pair on one shaft, in the coordinates of the first cam.
 

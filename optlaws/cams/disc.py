@@ -21,7 +21,7 @@ from optlaws.errors import InputError
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import in_degrees, quantity
-from optlaws.numbers import Array, Quantity, derivative, number_or_array, real_times
+from optlaws.numbers import Array, NumberOrQuantity, derivative, number_or_array, real_times
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Pair, turned, variable
 from optlaws.sentences import sentence
@@ -75,10 +75,10 @@ class DiscCam:
     """
 
     motion: Cycle | Plan | CamMotion
-    prime_radius: Quantity
+    prime_radius: NumberOrQuantity
     follower: CamFollower
     turning: Turning = field(default="counterclockwise", kw_only=True)
-    phase: Quantity = field(default="0 deg", kw_only=True)
+    phase: NumberOrQuantity = field(default="0 deg", kw_only=True)
     mirrored: bool = field(default=False, kw_only=True)
 
     def __post_init__(self) -> None:
@@ -130,11 +130,11 @@ class DiscCam:
         """The profile of the cam, its edge."""
         return self.pitch_curve.offset(-self.contact.roller) if self.contact.roller else self.pitch_curve
 
-    def cutter_path(self, cutter_radius: Quantity) -> PlaneCurve:
+    def cutter_path(self, cutter_radius: NumberOrQuantity) -> PlaneCurve:
         """The path of the centre of a cutter or grinding wheel that cuts the profile."""
         return self.pitch_curve.offset(positive(cutter_radius, "cutter_radius") - self.contact.roller)
 
-    def outline(self, curve: CutCurve | None = None, cutter_radius: Quantity | None = None) -> PlaneCurve:
+    def outline(self, curve: CutCurve | None = None, cutter_radius: NumberOrQuantity | None = None) -> PlaneCurve:
         """The curve that is cut: the "profile", the "pitch" curve, or the path of a "cutter" with a radius."""
         chosen = curve or ("profile" if cutter_radius is None else "cutter")
         check_names([chosen], CURVES, "curve")
@@ -154,7 +154,7 @@ class DiscCam:
         as_: CutFormat | None = None,
         *,
         curve: CutCurve | None = None,
-        cutter_radius: Quantity | None = None,
+        cutter_radius: NumberOrQuantity | None = None,
         force: bool = False,
         **options: Unpack[CuttingOptions],
     ) -> Path:

@@ -29,7 +29,7 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.mechanism_formulas import LinearForce, TableKind, formula_of, rescaled, table_numbers
 from optlaws.motion.quantities import TURN, in_degrees, quantity
 from optlaws.motion.smooth_stretches import jet_of_parts
-from optlaws.numbers import Array, NumberOrQuantity, Quantity, number_or_array, real_times
+from optlaws.numbers import Array, NumberOrQuantity, number_or_array, real_times
 from optlaws.numerics.branch_and_bound import Extremes, Function, extremes, integral
 from optlaws.numerics.interval import Interval, exact, highest, middle
 from optlaws.numerics.roots import bisect
@@ -179,10 +179,10 @@ class CamForces:
     """
 
     cam: DiscCam
-    speed: Quantity | None = None
+    speed: NumberOrQuantity | None = None
     drive: Mapping[str, Any] | None = None
     friction: Mapping[str, Any] = field(default_factory=dict)
-    width: Quantity | None = None
+    width: NumberOrQuantity | None = None
     materials: Any = ("steel", "steel")
     process: Mapping[str, Any] | None = None
 

@@ -29,7 +29,7 @@ from optlaws.entries.value_types import Measured
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import Exact, in_degrees, quantity
-from optlaws.numbers import Array, NumberOrQuantity, Quantity
+from optlaws.numbers import Array, NumberOrQuantity
 from optlaws.numerics.interval import Interval, between, exact
 from optlaws.numerics.peaks import is_kept
 from optlaws.numerics.roots import bisect, bracketed_root, holds_throughout
@@ -168,8 +168,8 @@ def least_prime_circle(
     motion: Cycle | Plan | CamMotion,
     follower: CamFollower,
     *,
-    pressure_angle: Quantity | None = None,
-    radius_of_curvature: Quantity | None = None,
+    pressure_angle: NumberOrQuantity | None = None,
+    radius_of_curvature: NumberOrQuantity | None = None,
     turning: Turning = "counterclockwise",
 ) -> LeastPrimeCircle:
     """The least prime circle under a pressure-angle limit, a least radius of curvature of the profile, or both.
@@ -234,7 +234,7 @@ class GreatestRoller:
     angle: float
 
 
-def greatest_roller(cam: DiscCam, *, radius_of_curvature: Quantity = "0 mm") -> GreatestRoller:
+def greatest_roller(cam: DiscCam, *, radius_of_curvature: NumberOrQuantity = "0 mm") -> GreatestRoller:
     """The greatest roller with which the profile of a cam keeps a radius of curvature; its prime circle stays.
 
     Parameters
@@ -447,7 +447,7 @@ class BestOffset:
 
 def best_offset(
     motion: Cycle | Plan | CamMotion,
-    prime_radius: Quantity,
+    prime_radius: NumberOrQuantity,
     follower: TranslatingRoller,
     *,
     turning: Turning = "counterclockwise",

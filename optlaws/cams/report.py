@@ -30,7 +30,7 @@ from optlaws.cycles.usual_law import usual_cycle
 from optlaws.kept import kept_property
 from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.motion.quantities import DEGREES, MILLI, TURN, TURN_DEG, UNITS
-from optlaws.numbers import Array, Quantity, bounded, chop
+from optlaws.numbers import Array, NumberOrQuantity, bounded, chop
 from optlaws.sentences import Sentence, joined, sentence
 from optlaws.shown.curve_points import refined
 from optlaws.shown.difference import Differences
@@ -164,7 +164,9 @@ class CamReport:
             **sizes,
         }
 
-    def coordinates(self, count: int, cutter: Quantity | None = None, second: DiscCam | None = None) -> ReportTable:
+    def coordinates(
+        self, count: int, cutter: NumberOrQuantity | None = None, second: DiscCam | None = None
+    ) -> ReportTable:
         """Displacement, points of the curves, pressure angle and curvature at equal steps of the turn.
 
         With the path of a cutter of a radius, and with the curves of a second cam.
@@ -293,7 +295,7 @@ def barrel_section(cam: BarrelCam) -> Section:
     return Section(text=f"Undercut: {_CUSPS[cam.undercut]}.", facts=facts, table=table, data=data)
 
 
-def barrel_coordinates(cam: BarrelCam, count: int, cutter: Quantity | None = None) -> ReportTable:
+def barrel_coordinates(cam: BarrelCam, count: int, cutter: NumberOrQuantity | None = None) -> ReportTable:
     """Points of the roller's axis and of the flanks, and pressure angles, at equal steps of the turn."""
     turns, places = np.linspace(0.0, TURN_DEG, count), dict(zip(("outside", "at the bottom"), cam.radii, strict=True))
     curves = {"axis of the roller": cam.pitch_curve}

@@ -26,7 +26,7 @@ from optlaws.laws.storage import PlainNumbers
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.quantities import TURN, in_degrees, quantity
 from optlaws.motion.smooth_parts import RealFunction, SmoothParts
-from optlaws.numbers import Array, Quantity, finite
+from optlaws.numbers import Array, NumberOrQuantity, Quantity, finite
 from optlaws.numerics.branch_and_bound import Extremes, Function, extremes_of_each, integral
 from optlaws.numerics.interval import Interval, chosen
 from optlaws.numerics.roots import bisect
@@ -440,7 +440,7 @@ class EnergyFluctuation(PlainNumbers):
 
 
 def energy_fluctuation(
-    machine: CamForces | Cycle | Plan | Mechanism, speed: Quantity | None = None
+    machine: CamForces | Cycle | Plan | Mechanism, speed: NumberOrQuantity | None = None
 ) -> EnergyFluctuation:
     """Mean power, mean torque and the work above the mean of a shaft that turns once a cycle at an even speed.
 

@@ -16,6 +16,7 @@ from cyclopts import App, CycloptsError, Parameter, UnusedCliTokensError
 
 from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
+from optlaws.spelling import known_spelling
 
 PARTLY_CHECKED = 3
 NOT_PROVEN, BAD_INPUT, INFEASIBLE, SOLVER_FAILURE, INTERRUPTED = 1, 2, 3, 4, 130
@@ -33,6 +34,8 @@ RETIRED = {
     "lever": "optlaws.TorsionLever and optlaws.find_torsion_levers compute them in Python",
     "loader": "optlaws.inertial_loader computes it in Python",
 }
+#: options that are taken in American spelling too
+_SPELLED = ("minimise", "modernise")
 #: of all commands, wherever it stands
 FORCE = "--force"
 
@@ -93,7 +96,7 @@ def exit_code(arguments: Sequence[str]) -> int:
     try:
         with warnings.catch_warnings():
             warnings.showwarning = _warn
-            _run([argument for argument in arguments if argument != FORCE], force=FORCE in arguments)
+            _run([_spelled(argument) for argument in arguments if argument != FORCE], force=FORCE in arguments)
     except (CycloptsError, InputError) as error:
         text, code = cut(_plain(error)), BAD_INPUT
     except InfeasibleProblem as error:
@@ -114,6 +117,12 @@ def exit_code(arguments: Sequence[str]) -> int:
         return 0
     print(f"optlaws: {text}", file=sys.stderr)
     return code
+
+
+def _spelled(argument: str) -> str:
+    """An argument with the name of an option as the commands have it."""
+    name, equals, value = argument.partition("=")
+    return f"--{known_spelling(name[2:], _SPELLED)}{equals}{value}" if name.startswith("--") else argument
 
 
 def _plain(error: CycloptsError | InputError) -> str:

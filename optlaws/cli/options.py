@@ -103,7 +103,8 @@ class Options(dict[str, Option]):
 
 
 #: of parameters by their annotations
-_TYPES = {"Quantity": str, "str": str, "float": float, "int": Whole}
+_QUANTITIES = dict.fromkeys(("Quantity", "NumberOrQuantity"), str)
+_TYPES: dict[str, Any] = {**_QUANTITIES, "str": str, "float": float, "int": Whole}
 #: how long a motion takes is its time in older scripts
 _OLDER = {"duration": ("--time",)}
 _PARAMETERS = "Parameters\n----------\n"
@@ -134,7 +135,7 @@ def options(
             "type": _TYPES.get(annotation),
             "about": sentences.get(name, ""),
             "default": default,
-            "signed": annotation == "Quantity",
+            "signed": annotation in _QUANTITIES,
             "also": _OLDER.get(name, ()),
             "group": group,
         }

@@ -20,7 +20,8 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import TURN, quantity
-from optlaws.numbers import Quantity
+from optlaws.numbers import NumberOrQuantity
+from optlaws.spelling import either_spelling
 from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import CYCLE_OPTIMALITY
 
@@ -39,7 +40,7 @@ class CycleAnswers(Answers):
 
         def solve(self) -> Plan: ...
 
-    def at(self, speed: Quantity) -> Cycle:
+    def at(self, speed: NumberOrQuantity) -> Cycle:
         """The same motion at another speed of the master: laws are unchanged, durations scale in proportion.
 
         Examples
@@ -53,7 +54,7 @@ class CycleAnswers(Answers):
         plan, period = self.solve(), period_of(speed, None)
         return retimed(plan.specification, self.peaks, period, period / plan.duration, limits={})
 
-    def cam(self, period: Quantity, damping: float = 0.0) -> Cycle:
+    def cam(self, period: NumberOrQuantity, damping: float = 0.0) -> Cycle:
         """The cycle of the cam with which an elastic follower's mass executes this cycle (1.27).
 
         Each move is corrected by the follower's frequency over its own duration: nu = 2 pi T / T_k. The mass comes to
@@ -238,11 +239,12 @@ class Cycle(CycleAnswers, Specification):
 
         return fastest_cycle(self)
 
+    @either_spelling
     def front(
         self,
         minimise: str,
         *,
-        longest: Quantity | None = None,
+        longest: NumberOrQuantity | None = None,
         points: int = 17,
         follower: Mapping[str, Any] | None = None,
     ) -> TimeFront:

@@ -10,13 +10,25 @@ from dataclasses import MISSING, dataclass, field, fields
 from functools import wraps
 from inspect import signature
 from textwrap import wrap
-from typing import Any, ClassVar, ForwardRef, NoReturn, Self, TypeVar, dataclass_transform, get_args, get_origin
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    ClassVar,
+    ForwardRef,
+    NoReturn,
+    Self,
+    TypeVar,
+    dataclass_transform,
+    get_args,
+    get_origin,
+)
 
 from optlaws.echo import shortened, unknown_key
 from optlaws.entries.value_types import AnyTable, Kept, ValueType
 from optlaws.errors import CallError, InputError, located
 from optlaws.files.reading import JsonText, check_names
 from optlaws.motion.quantities import Derived, written
+from optlaws.spelling import known_spellings, other_spelling
 
 
 class FrozenTable(dict[str, Any]):
@@ -241,6 +253,7 @@ def _naming_entries(cls: type[DeclaredT]) -> Callable[..., None]:
 
     @wraps(make)
     def constructor(self: DeclaredT, *args: Any, **given: Any) -> None:
+        given = known_spellings(given, takes)
         unknown, lacking = given.keys() - takes, needed.difference(names[: len(args)], given)
         if unknown or lacking:
             other = next((name for name in sorted(unknown) if name in cls.instead), None)
@@ -366,6 +379,15 @@ class Declared(JsonText):
         """Its entries as files have them by "", or those of each kind by its name."""
         return {"": entries_of(cls)}
 
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            """What is called so in the other spelling."""
+            other = other_spelling(name)
+            if other == name:
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
+            return getattr(self, other)
+
     def _check(self) -> None:
         """Refuse entries that contradict each other."""
 
@@ -399,7 +421,7 @@ class Declared(JsonText):
             raise InputError(
                 f"{cls.named} must be a table of {', '.join(known) or 'no entries'}, got {shortened(data)}"
             )
-        given = cls._from_earlier(dict(data))
+        given = cls._from_earlier(known_spellings(data, known))
         if cls.computes:
             given = {name: value for name, value in given.items() if name in known}
         check_names(given, known, f"entry of {cls.named}")

@@ -17,7 +17,7 @@ from optlaws.laws import MotionLaw
 from optlaws.motion.motion import Motion, motion_of_law
 from optlaws.motion.polynomials import Extreme, PiecewiseMotion
 from optlaws.motion.quantities import QUANTITIES, quantity
-from optlaws.numbers import MOST_VALUES, Array, Quantity
+from optlaws.numbers import MOST_VALUES, Array, NumberOrQuantity
 from optlaws.numerics import bernstein
 from optlaws.shown.summary import Row, Summary
 
@@ -233,7 +233,7 @@ class TaskSampling:
     acceleration: float
 
 
-def task_sampling(run: PiecewiseMotion, motion: Motion, task: Quantity) -> TaskSampling:
+def task_sampling(run: PiecewiseMotion, motion: Motion, task: NumberOrQuantity) -> TaskSampling:
     """The run sampled once in a task, such as "1 ms": second differences of the positions, both ends included.
 
     Before and after a motion of one shot there is rest; a cycle goes on with itself.
@@ -401,7 +401,7 @@ class Export(TextFile):
 
 
 def export_motion(
-    motion: Motion, to: Any, *, task: Quantity | None = None, written: Written | None = None, **options: Any
+    motion: Motion, to: Any, *, task: NumberOrQuantity | None = None, written: Written | None = None, **options: Any
 ) -> Export:
     """A motion in a format, which checks its options, with its reports; `task` is the time of a drive's task."""
     form = format_of(to)
@@ -436,7 +436,7 @@ def export_axes(
 
 
 def export_together(
-    axes: Mapping[str, Any], to: Any, placement: dict[str, Any], *, task: Quantity | None = None, **options: Any
+    axes: Mapping[str, Any], to: Any, placement: dict[str, Any], *, task: NumberOrQuantity | None = None, **options: Any
 ) -> dict[str, Export]:
     """Axes in a single file, for formats that hold several: all exports share the text."""
     form = format_of(to)

@@ -26,7 +26,7 @@ from optlaws.errors import InputError
 from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.kept import kept_property
-from optlaws.numbers import Quantity
+from optlaws.numbers import NumberOrQuantity, Quantity
 
 _LENGTH = Measured("length", above=0.0)
 
@@ -49,8 +49,8 @@ class CamOfMotion(ProblemFile, title="a cam"):
 
     _: KW_ONLY
     motion: AxisEntries = entry(ValueOf(AxisEntries), 'One axis with its segments, as in the job "cycle".')
-    speed: Quantity | None = same(Cycle, "speed")
-    period: Quantity | None = same(Cycle, "period")
+    speed: NumberOrQuantity | None = same(Cycle, "speed")
+    period: NumberOrQuantity | None = same(Cycle, "period")
     turning: Turning = entry(Choice(*TURNINGS), "How the cam turns.", default="counterclockwise")
     cutter_radius: str | None = entry(
         _LENGTH,
@@ -91,8 +91,8 @@ class CamProblemFile(CamOfMotion, title="a cam"):
     )
     #: the name that earlier files have for `prime_radius`
     base_radius: Quantity | None = entry(_LENGTH, "That of earlier files.", default=None, shown=False)
-    pressure_angle: Quantity | None = same(CamLimits, "pressure_angle")
-    radius_of_curvature: Quantity | None = same(CamLimits, "radius_of_curvature")
+    pressure_angle: NumberOrQuantity | None = same(CamLimits, "pressure_angle")
+    radius_of_curvature: NumberOrQuantity | None = same(CamLimits, "radius_of_curvature")
     best: str | None = entry(
         Choice("laws", "prime circle", "offset"),
         "What is optimised: the laws of the motion under the limits of the cam, at the given prime circle or at the "

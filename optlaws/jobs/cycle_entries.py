@@ -25,7 +25,7 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import read_motors
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
-from optlaws.numbers import Quantity
+from optlaws.numbers import NumberOrQuantity, Quantity
 from optlaws.synthesis.status import Status
 
 if TYPE_CHECKING:
@@ -150,8 +150,8 @@ class CycleProblemFile(ProblemFile, title="a problem file"):
         default=None,
         example={"goal": "acceleration", "of": ["die"]},
     )
-    speed: Quantity | None = same(Cycle, "speed")
-    period: Quantity | None = same(Cycle, "period")
+    speed: NumberOrQuantity | None = same(Cycle, "speed")
+    period: NumberOrQuantity | None = same(Cycle, "period")
     rows: int = entry(Whole(2, 100_000), "Lines of the tables.", default=361)
     sweep: tuple[SweepEntries, ...] = entry(
         Listed(ValueOf(SweepEntries), most=4, each="sweep"),
@@ -253,7 +253,9 @@ def with_entry(axis: dict[str, Any], entry: str, value: str | float) -> dict[str
     return changed
 
 
-def cycle_of(axis: AxisEntries, speed: Quantity | None, period: Quantity | None, folder: Path = Path()) -> Cycle:
+def cycle_of(
+    axis: AxisEntries, speed: NumberOrQuantity | None, period: NumberOrQuantity | None, folder: Path = Path()
+) -> Cycle:
     """The cycle of an axis, or of its cam where there is a follower; `folder` contains catalogues of motors."""
     shared = (name for name in entries_of(Cycle) if name in entries_of(AxisEntries))
     entries = {name: getattr(axis, name) for name in shared} | {"drive": drive_of(axis.mechanism, axis.drive, folder)}

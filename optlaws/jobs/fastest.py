@@ -23,7 +23,7 @@ from optlaws.jobs.job_entries import ProblemFile, plain_name
 from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import UNITS
-from optlaws.numbers import Quantity
+from optlaws.numbers import NumberOrQuantity, Quantity
 from optlaws.plots.moves import fronts_figure, motion_figure, strokes_figure
 from optlaws.results import Page, Results
 from optlaws.studies.problem_entries import gap, problem, steady
@@ -151,7 +151,11 @@ def arguments_of(move: MoveEntries, folder: Path) -> dict[str, Any]:
 
 
 def front_of(
-    quickest: FastestMove, move: MoveEntries, minimise: str, given: dict[str, Any], extent: tuple[Quantity | None, int]
+    quickest: FastestMove,
+    move: MoveEntries,
+    minimise: str,
+    given: dict[str, Any],
+    extent: tuple[NumberOrQuantity | None, int],
 ) -> TimeFront:
     """The front of a move over its time, up to the longest time; `given` holds its `arguments_of`."""
     machine: dict[str, Any] = {}

@@ -22,7 +22,7 @@ from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws.curve import Curve, Sides
 from optlaws.laws.storage import StoredLaw
-from optlaws.numbers import Array, Quantity, bounded, derivative, finite, times
+from optlaws.numbers import Array, NumberOrQuantity, Quantity, bounded, derivative, finite, times
 from optlaws.numerics.peaks import Peak as Peak  # noqa: PLC0414 - a name of optlaws.laws
 from optlaws.tolerances import JUMP, VALUE_ROUNDING
 
@@ -135,7 +135,7 @@ class AxesExportOptions(TypedDict, total=False):
     digits: int | None
     decimal: Literal[".", ","] | None
     interpolation: Interpolation | None
-    task: Quantity | None
+    task: NumberOrQuantity | None
 
 
 class ExportOptions(AxesExportOptions, total=False):

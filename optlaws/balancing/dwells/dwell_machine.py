@@ -19,7 +19,7 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import Exact, quantity
-from optlaws.numbers import Quantity
+from optlaws.numbers import NumberOrQuantity
 
 _DWELL = ("run-out", "reverse", "run-up")
 _SIZES = ("inertia", "loader_inertia", "arm", "prime_radius")
@@ -107,7 +107,7 @@ class DwellMachine(Declared, title="a dwell machine"):
         turn = self._turn()
         return CamMotion.of_pieces([Piece(0.0, tau, 0.0, turn.swing, turn.motion)], tau, "angle")
 
-    def cams(self, roller: Quantity, pivot_distance: Quantity) -> dict[str, DiscCam]:
+    def cams(self, roller: NumberOrQuantity, pivot_distance: NumberOrQuantity) -> dict[str, DiscCam]:
         """The executive cam and the loader's, with rollers on arms.
 
         Parameters
@@ -164,15 +164,15 @@ def dwell_machine(
     kind: DwellType,
     *,
     law: MotionLaw,
-    speed: Quantity,
-    dwell: Quantity,
-    rise: Quantity,
-    swing: Quantity,
-    inertia: Quantity,
-    loader_inertia: Quantity,
-    arm: Quantity,
-    prime_radius: Quantity,
-    clutch_time: Quantity = "0 s",
+    speed: NumberOrQuantity,
+    dwell: NumberOrQuantity,
+    rise: NumberOrQuantity,
+    swing: NumberOrQuantity,
+    inertia: NumberOrQuantity,
+    loader_inertia: NumberOrQuantity,
+    arm: NumberOrQuantity,
+    prime_radius: NumberOrQuantity,
+    clutch_time: NumberOrQuantity = "0 s",
     more: Mapping[str, Any] | None = None,
 ) -> DwellMachine:
     """A balancing dwell mechanism from a machine's data: its clutch takes a time, an angle that grows with the speed.

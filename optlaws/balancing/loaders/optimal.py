@@ -14,6 +14,7 @@ from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.laws import MotionLaw
 from optlaws.numbers import bounded, positive
+from optlaws.spelling import either_spelling
 from optlaws.synthesis.problem.expression import Expression, Term
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import at_most
@@ -103,6 +104,7 @@ class BalancedLaw(JsonText):
         )
 
 
+@either_spelling
 def balanced_law(
     B: float,
     *,

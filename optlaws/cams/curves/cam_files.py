@@ -24,7 +24,7 @@ from optlaws.files.reading import check_names
 from optlaws.files.writing import MARK
 from optlaws.lazy import process_lock
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Array, NumberOrQuantity, Quantity
+from optlaws.numbers import Array, NumberOrQuantity
 from optlaws.numerics.roots import bracketed_roots
 
 if TYPE_CHECKING:
@@ -40,11 +40,11 @@ CutFormat = Literal["dxf spline", "dxf polyline", "dxf arcs", "svg", "csv", "csv
 class CuttingOptions(TypedDict, total=False):
     """The options of files for cutting, each of which `Cutting` documents."""
 
-    tolerance: Quantity | None
+    tolerance: NumberOrQuantity | None
     decimals: int | None
     points: int | None
     degree: int | None
-    feed: Quantity | None
+    feed: NumberOrQuantity | None
     about: str | None
 
 

@@ -35,7 +35,7 @@ from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Array, NumberOrQuantity, Quantity
+from optlaws.numbers import Array, NumberOrQuantity
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.peaks import is_kept
 from optlaws.numerics.taylor import Jet, Pair, Term
@@ -290,7 +290,7 @@ class OscillatingFlat(FlatFollower, kind="oscillating flat"):
         return positive(self.pivot_distance, "face: pivot_distance") * sin(level) + offset
 
     @property
-    def pivot(self) -> Quantity:
+    def pivot(self) -> NumberOrQuantity:
         return self.pivot_distance
 
 

@@ -14,7 +14,7 @@ from optlaws.cams.followers.contact import FollowerContact
 from optlaws.entries.declared import Kinded
 from optlaws.errors import InputError
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import Quantity
+from optlaws.numbers import NumberOrQuantity
 from optlaws.sentences import Amount
 
 
@@ -68,7 +68,7 @@ class CamFollower(Kinded, ABC, title="a follower"):
         return max((abs(quantity(getattr(self, name), "length", name)) for name in self.lengths), default=0.0)
 
     @property
-    def pivot(self) -> Quantity | None:
+    def pivot(self) -> NumberOrQuantity | None:
         """The distance of the pivot from the cam's centre; None on a slide."""
         return None
 

@@ -30,7 +30,7 @@ from optlaws.entries.value_types import Measured
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import Exact, quantity
-from optlaws.numbers import Array, NumberOrQuantity, Quantity
+from optlaws.numbers import Array, NumberOrQuantity
 from optlaws.numerics.interval import Interval
 from optlaws.numerics.taylor import Jet, Pair, Term
 
@@ -279,7 +279,7 @@ class OscillatingRoller(CamFollower, kind="oscillating roller"):
         return sqrt(arm**2 + pivot**2 - 2.0 * arm * pivot * cos(level))
 
     @property
-    def pivot(self) -> Quantity:
+    def pivot(self) -> NumberOrQuantity:
         return self.pivot_distance
 
 

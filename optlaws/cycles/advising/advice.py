@@ -24,10 +24,11 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import TURN, Exact, either, quantity, table
-from optlaws.numbers import Quantity, bounded, chop, whole
+from optlaws.numbers import NumberOrQuantity, bounded, chop, whole
 from optlaws.sentences import listed
 from optlaws.shown.report import Panel, PlainReport, Report, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
+from optlaws.spelling import either_spelling
 from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.tolerances import VALUE_ROUNDING
@@ -299,6 +300,7 @@ def proof_in_words(law: AdvisedLaw) -> str:
     return f"{law.proof.status.value}, gap {1.0 - bound / law.values[law.proof.minimise]:.1e}"
 
 
+@either_spelling
 def advise(
     motion: Move | Cycle,
     *,
@@ -306,7 +308,7 @@ def advise(
     limits: Mapping[str, Any] | None = None,
     follower: Mapping[str, Any] | None = None,
     drive: Mapping[str, Any] | Mechanism | Drive | None = None,
-    speed: Quantity | None = None,
+    speed: NumberOrQuantity | None = None,
     laws: Sequence[str] = STANDARD,
     degree: int | None = None,
     points: int = 7,
@@ -444,7 +446,7 @@ def _check(laws: Any) -> None:
             read_law(law)  # a name that is no law's is a mistake, no law that does not fit
 
 
-def _of_move(move: Move, speed: Quantity | None, entries: Mapping[str, Any]) -> Cycle:
+def _of_move(move: Move, speed: NumberOrQuantity | None, entries: Mapping[str, Any]) -> Cycle:
     """A single move as a cycle that continues from its end."""
     axis = axis_of([move])
     if move.duration is None or isinstance(move.duration, list | tuple):

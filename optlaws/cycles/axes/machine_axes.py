@@ -22,7 +22,7 @@ from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws.law import AxesExportOptions
 from optlaws.motion.quantities import Exact
-from optlaws.numbers import Quantity
+from optlaws.numbers import NumberOrQuantity, Quantity
 from optlaws.shown.report import Report
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.status import Status
@@ -264,8 +264,8 @@ class Axes(AxesAnswers, Declared, title="stored axes"):
         "is needed.",
     )
     _: KW_ONLY
-    speed: Quantity | None = same(Cycle, "speed", default=None)
-    period: Quantity | None = same(Cycle, "period", default=None)
+    speed: NumberOrQuantity | None = same(Cycle, "speed", default=None)
+    period: NumberOrQuantity | None = same(Cycle, "period", default=None)
     interlocks: Sequence[Interlock | Mapping[str, Any]] = entry(
         INTERLOCKS,
         "Conditions between two axes: `After`, `Clearance`, `Forbidden`, `Synchronous`, or the plain data of such. "
@@ -287,7 +287,7 @@ class Axes(AxesAnswers, Declared, title="stored axes"):
         """The worst status of the axes."""
         return Status.worst(cycle.status for cycle in self.values())
 
-    def at(self, speed: Quantity) -> Axes:
+    def at(self, speed: NumberOrQuantity) -> Axes:
         """The same motions at another speed of the master, like `Cycle.at`."""
         return Axes({name: cycle.at(speed) for name, cycle in self.items()}, interlocks=self.interlocks)
 

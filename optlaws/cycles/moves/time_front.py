@@ -28,6 +28,7 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import Exact, Kind, quantity
 from optlaws.numbers import NumberOrQuantity, Quantity, bounded, listed, positive, real
+from optlaws.spelling import either_spelling
 from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS, TimedLimit, power
 from optlaws.synthesis.least_time.timed_move import AT_MOTOR, OBJECTIVES, MoveObjective, TimedMove
 from optlaws.synthesis.problem.constants import meant
@@ -316,12 +317,13 @@ class FrontOverTime(Declared, title="a front"):
             raise InputError(f"minimise names one of them twice: {', '.join(self.minimise)}")
 
 
+@either_spelling
 @documented_by(FrontOverTime)
 def time_front(
     move: FastestMove,
     minimise: str,
     *,
-    longest: Quantity | None = None,
+    longest: NumberOrQuantity | None = None,
     points: int = 17,
     drive: Drive | None = None,
     start: NumberOrQuantity = 0.0,

@@ -8,7 +8,7 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.motion.quantities import either, quantity
-from optlaws.numbers import Array, Quantity, whole
+from optlaws.numbers import Array, NumberOrQuantity, Quantity, whole
 
 _TURN = 360.0  # deg of the master of a cycle in a turn
 _TURNS = {"deg": _TURN, "rad": 2.0 * np.pi, "turn": 1.0, "rev": 1.0}
@@ -137,7 +137,7 @@ def in_unit(text: Quantity | None, unit: str, dimensions: Sequence[str], name: s
     return quantity(text, dimension, name) / size
 
 
-def period_of(turn: float, master: str, speed: Quantity) -> float:
+def period_of(turn: float, master: str, speed: NumberOrQuantity) -> float:
     """The time of a turn of the master at its speed, in s; a master of lengths may turn at an angular velocity too.
 
     Examples

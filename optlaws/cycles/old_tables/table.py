@@ -26,7 +26,7 @@ from optlaws.laws.catalogue.tables.columns import LARGEST_TABLE
 from optlaws.laws.catalogue.tables.controller_files import FEWEST_POINTS
 from optlaws.laws.catalogue.tables.curve_pieces import APART, CurvePiece
 from optlaws.motion.quantities import QUANTITIES, Exact, either
-from optlaws.numbers import Array, Quantity, not_negative, numbers, positive
+from optlaws.numbers import Array, NumberOrQuantity, Quantity, not_negative, numbers, positive
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.tolerances import AGREEMENT
 
@@ -85,7 +85,7 @@ class OldTable:
     outliers: tuple[int, ...] = ()
     whole: bool = False
 
-    def cycle(self, *, speed: Quantity | None = None, period: Quantity | None = None) -> Cycle:
+    def cycle(self, *, speed: NumberOrQuantity | None = None, period: NumberOrQuantity | None = None) -> Cycle:
         """The cycle of the table, at a speed or a period; at the speed of the file if neither is given.
 
         Raises
@@ -127,8 +127,8 @@ class OldTable:
         self,
         tolerance: float,
         *,
-        speed: Quantity | None = None,
-        period: Quantity | None = None,
+        speed: NumberOrQuantity | None = None,
+        period: NumberOrQuantity | None = None,
         order: int = 3,
         degree: int = 15,
     ) -> Cycle:

@@ -28,7 +28,7 @@ from optlaws.files.packaged import packaged
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
 from optlaws.motion.quantities import MILLI, TURN_DEG, UNITS
-from optlaws.numbers import Quantity
+from optlaws.numbers import NumberOrQuantity
 from optlaws.sentences import Amount, joined, sentence
 from optlaws.tolerances import AGREEMENT, BOUND_SLACK
 
@@ -128,7 +128,7 @@ def stored(spec: CycleProblemFile, axis: AxisEntries) -> Plan:
 
 
 @lru_cache(maxsize=128)
-def _solved(axis: AxisEntries, speed: Quantity | None, period: Quantity | None) -> Plan:
+def _solved(axis: AxisEntries, speed: NumberOrQuantity | None, period: NumberOrQuantity | None) -> Plan:
     motor, drive = (axis.drive or {}).get("motor"), axis.drive or {}
     if isinstance(motor, Mapping) and LIMITING & motor.keys() and not axis.limits.get("motor"):
         # the laws stay while a limit of the motor is dragged

@@ -25,7 +25,7 @@ from optlaws.explorer.views.requests import check_size, without_files
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
 from optlaws.jobs.fastest import FastestProblemFile, MoveEntries, arguments_of, front_of
 from optlaws.motion.quantities import MILLI, Exact, quantity
-from optlaws.numbers import Array, Quantity, bounded
+from optlaws.numbers import Array, NumberOrQuantity, bounded
 from optlaws.sentences import Amount
 from optlaws.shown.summary import Row
 from optlaws.studies.problem_entries import problem
@@ -147,7 +147,7 @@ def _of_move(move: MoveEntries, entries: str) -> _Search:
 
     usual = [] if least.beside is None else least.beside.rows[:1]
 
-    def line(longest: Quantity | None, points: int) -> TimeFront:
+    def line(longest: NumberOrQuantity | None, points: int) -> TimeFront:
         return front_of(least, move, minimise or "", given, (longest, points))
 
     def points() -> _Points:

@@ -13,7 +13,7 @@ from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine.response import CycleResponse, Response, duration_of_rise
 from optlaws.motion.quantities import check_scale, either
-from optlaws.numbers import Quantity, circular_frequency, not_negative, numbers, positive
+from optlaws.numbers import NumberOrQuantity, Quantity, circular_frequency, not_negative, numbers, positive
 from optlaws.shown.report import PlainReport, Report, ReportTable
 from optlaws.shown.summary import Row, Summary
 
@@ -119,8 +119,8 @@ class Follower:
         vibration: Quantity,
         *,
         duration: Quantity | None = None,
-        speed: Quantity | None = None,
-        rise: Quantity | None = None,
+        speed: NumberOrQuantity | None = None,
+        rise: NumberOrQuantity | None = None,
         damping: float = 0.0,
     ) -> Follower:
         """The follower of a machine, from quantities with their units; `Response.in_units` gives its answers in units.

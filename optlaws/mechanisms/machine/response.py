@@ -18,7 +18,7 @@ from optlaws.mechanisms.machine.over_time import MachineMotion, PanelCurve, Rise
 from optlaws.mechanisms.machine.state_space import Dynamics, OutputRows
 from optlaws.motion.piece import factor, unit_of
 from optlaws.motion.quantities import quantity, read_stroke
-from optlaws.numbers import Array, Quantity, derivative, positive, real_times
+from optlaws.numbers import Array, NumberOrQuantity, Quantity, derivative, positive, real_times
 
 _STIFF = 8.0  # radians in the rise: slower vibrations are slower than most laws
 _RADIANS = 40.0  # of a vibration in a panel: roots of a few long series take less time than those of many short ones
@@ -125,7 +125,7 @@ class Oscillator:
         return {letter: (row[:2] @ self.on_cam.out_of, row[2:]) for letter, row in rows.items()}
 
 
-def duration_of_rise(duration: Quantity | None, speed: Quantity | None, rise: Quantity | None) -> float:
+def duration_of_rise(duration: Quantity | None, speed: NumberOrQuantity | None, rise: NumberOrQuantity | None) -> float:
     """The duration of a rise in s, from itself or from the speed of the cam and its angle during the rise."""
     if duration is not None and speed is None and rise is None:
         return positive(quantity(duration, "time", "duration"), "duration")
@@ -231,8 +231,8 @@ class Response(MassMotion):
         stroke: Quantity,
         *,
         duration: Quantity | None = None,
-        speed: Quantity | None = None,
-        rise: Quantity | None = None,
+        speed: NumberOrQuantity | None = None,
+        rise: NumberOrQuantity | None = None,
     ) -> dict[str, float]:
         """Peaks and vibration in m or rad and seconds, by names with their units.
 
