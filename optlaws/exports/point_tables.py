@@ -6,12 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
-from math import floor, inf, isfinite, log10
+from math import inf, isfinite
 
 import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.exports.format import BEST, Request, Written
+from optlaws.exports.text import rounded_column
 from optlaws.kept import kept_property
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
@@ -20,7 +21,6 @@ from optlaws.numerics import bernstein
 from optlaws.numerics.splines import Ends, hermite_powers, linear_powers, spline_powers
 from optlaws.tolerances import CLOSURE
 
-_DIGITS = 15  # that every double has
 _TABLE_ROUNDING = 2.0**-46  # of a column of a table: less is printed as 0
 
 #: by interpolations: how many derivatives points have, with the position
@@ -98,10 +98,8 @@ class NumberFormat:
         >>> NumberFormat().numbers(np.array([4.0e-17, 29.999999999999996, 40.0])).tolist()
         [0.0, 30.0, 40.0]
         """
-        greatest = float(np.abs(values).max(initial=0.0))
-        known = _DIGITS - 1 - floor(log10(greatest)) if 0.0 < greatest < inf else 0
-        rounded = np.round(values, known if self.digits is None else self.digits)
-        return (rounded.astype(np.float32).astype(np.float64) if self.single else rounded) + 0.0
+        rounded = rounded_column(values, self.digits)
+        return rounded.astype(np.float32).astype(np.float64) + 0.0 if self.single else rounded
 
 
 #: how many points, or the places of the master where they are

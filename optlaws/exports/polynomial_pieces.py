@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, replace
 from fractions import Fraction
 from heapq import heapify, heapreplace
 from itertools import pairwise
@@ -15,7 +15,7 @@ import numpy as np
 from optlaws.errors import InputError
 from optlaws.exports.error_bounds import SINGLE, error_bounds
 from optlaws.exports.format import BEST, Request
-from optlaws.exports.text import Labels, iec_comment, program_heading, rounded_up
+from optlaws.exports.text import Labels, iec_comment, program_heading, rounded_column, rounded_up
 from optlaws.files.writing import MARK
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.polynomial import PolynomialLaw
@@ -239,7 +239,24 @@ def fitted(motion: Motion, degree: int, most: int, count: int | None = None, *, 
     joined = _fit(motion, sections)
     if joined.count > most:
         raise InputError(f"{joined.count} pieces are needed, and the target holds {most}: export the motion in parts")
-    return joined
+    return replace(joined, run=_as_printed(joined.run))
+
+
+def _as_printed(run: PiecewiseMotion) -> PiecewiseMotion:
+    """Polynomials with the breaks and powers that files have: with 15 digits, beyond which doubles are rounded.
+
+    A power is 0 that is no more than rounding beside the others of its order, and in the positions of its piece.
+    """
+    size, position = max(map(len, run.coefficients)), run.peak(0).value
+    greatest = [max(abs(row[n]) for row in run.coefficients if n < len(row)) for n in range(size)]
+    rows = [
+        [
+            0.0 if abs(power) <= _POSITION_ROUNDING * min(greatest[n], position / length**n) else float(f"{power:.15g}")
+            for n, power in enumerate(row)
+        ]
+        for row, length in zip(run.coefficients, run.lengths.tolist(), strict=True)
+    ]
+    return PiecewiseMotion(rounded_column(np.array(run.breaks)), rows)
 
 
 def exactly(motion: Motion, degree: int) -> Fitted | None:
@@ -315,8 +332,10 @@ def ends_of(motion: Motion, run: PiecewiseMotion, orders: int) -> list[Ends]:
     for nu in range(orders):
         first, ends_here = run.ends(nu)
         known = np.append(first[1:], motion.ends(nu)[1])
-        lasts.append(np.where(np.abs(known - ends_here) <= rounding(run, nu), known, ends_here).tolist())
-        firsts.append(first.tolist())
+        last = np.where(np.abs(known - ends_here) <= rounding(run, nu), known, ends_here)
+        begins, ends = rounded_column(np.array([first, last])).tolist()
+        firsts.append(begins)
+        lasts.append(ends)
     places = zip(run.breaks, run.breaks[1:], strict=False)
     return [Ends(*joint) for joint in zip(places, zip(*firsts, strict=True), zip(*lasts, strict=True), strict=True)]
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from decimal import ROUND_CEILING, Context
 from functools import cache
 from itertools import chain, count
+from math import floor, inf, log10
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,11 +22,13 @@ from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.motion.quantities import QUANTITIES
+from optlaws.numbers import Array
 
 if TYPE_CHECKING:
     from optlaws.shown.summary import Summary
 
 WIDTH = 110
+_DIGITS = 15
 
 
 class TextFile:
@@ -153,6 +156,17 @@ def plain_column(values: Iterable[float], digits: int | None = None, decimal: st
         texts = [f"{value:.{digits}f}" for value in values]
         texts = [text[1:] if text.startswith("-") and not text.strip("-0.") else text for text in texts]
     return texts if decimal == "." else [text.replace(".", decimal) for text in texts]
+
+
+def rounded_column(values: Array, digits: int | None = None) -> Array:
+    """Numbers of a column with decimals, or with 15 digits of the greatest, beyond which doubles are rounded.
+
+    >>> rounded_column(np.array([4.0e-17, 29.999999999999996, 40.0])).tolist()
+    [0.0, 30.0, 40.0]
+    """
+    greatest = float(np.abs(values).max(initial=0.0))
+    known = _DIGITS - 1 - floor(log10(greatest)) if 0.0 < greatest < inf else 0
+    return np.round(values, known if digits is None else digits) + 0.0
 
 
 def table_heading(motion: Motion, target: str) -> tuple[str, ...]:
