@@ -132,3 +132,21 @@ def test_a_table_at_constant_velocity_is_refused_and_leaves_nothing(
     assert contents(folder) == before
     assert exit_code([*arguments[:2], "--tolerance", "0.001", "--modernise", "0.1mm"]) == 0
     assert "keeps its law: it is at constant velocity" in capsys.readouterr().out
+
+
+def test_a_tolerance_in_which_no_move_is_bettered_is_said_and_leaves_nothing(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A harmonic rise and return: laws without jumps of the acceleration are not within a micron of them."""
+    turn = np.arange(0.0, 361.0)
+    lift = 10.0 * (1.0 - np.cos(np.pi * np.clip(turn / 90.0, 0.0, 1.0)))
+    lift -= 10.0 * (1.0 - np.cos(np.pi * np.clip((turn - 180.0) / 90.0, 0.0, 1.0)))
+    (folder / "harmonic.txt").write_text("\n".join(f"{x:g} {y:.3f}" for x, y in zip(turn, lift, strict=True)), "utf-8")
+    before = contents(folder)
+    arguments = ["cycle", "harmonic.txt", "--speed", "200rpm", "--modernise", "0.01mm"]
+    for more in (["--save", "new.toml"], ["--export", "csv"]):
+        assert exit_code([*arguments, *more]) != 0
+        assert "no law of order 3 and degree 15 is so near; within" in capsys.readouterr().err
+        assert contents(folder) == before
+    assert exit_code(arguments) == 0
+    assert "keeps its law: no law of order 3 and degree 15 is so near; within" in capsys.readouterr().out

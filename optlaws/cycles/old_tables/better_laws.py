@@ -29,11 +29,12 @@ Ends = tuple[tuple[float, ...], tuple[float, ...]]
 _JERK = 1.2  # of an old law's greatest jerk: what a law of less acceleration in its place may have
 _RAMP = 0.1  # of a move: over so much of it a jump of the acceleration at its end is taken
 _SAME = 1e-6  # of a greatest velocity or acceleration: what differs by less is the same
-_LEAST_GAIN = 1e-6  # of an acceleration: what is less is rounding
-_ASKED = 0.999  # of a tolerance: what is asked at places, so that a law is within all of it between them
+_LEAST_GAIN = 1e-3  # of an acceleration: for less no law is replaced, as the rounding of a table may show so much
+_BETWEEN = 1e-3  # of a tolerance: what is left at places, so that a law is within all of it between them
+_SETTLED = 5  # rounds after which more is left, twice as much in each
 _FIRST = 8  # parts between the places with which the search begins
 _APART = 2e-3  # of a move: places that are nearer to a new one give way to it
-_ROUNDS = 30
+_ROUNDS = 13
 _LOOKS = 800  # places at which the difference of two laws is looked at for its extremes
 _STEPS = 5  # of Newton's method towards an extreme
 _MOST = 0.25  # of a stroke: tolerances beyond it are none
@@ -208,10 +209,10 @@ def _least(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) ->
     basis = Chebyshev(degree + 2 * (order - same))
     places = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, _FIRST) / _FIRST)
     solution = None
-    for _ in range(_ROUNDS):
-        heights = np.asarray(old(places))
+    for count in range(_ROUNDS):
+        heights, room = np.asarray(old(places)), share * (1.0 - _BETWEEN * 2.0 ** max(count - _SETTLED, 0))
         windows = [
-            Window("a", height - _ASKED * share, height + _ASKED * share, k, k)
+            Window("a", height - room, height + room, k, k)
             for k, height in zip(places.tolist(), heights.tolist(), strict=True)
         ]
         problem = Problem(
@@ -225,7 +226,7 @@ def _least(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) ->
         if deviation(law, old) <= share:
             return solution
         beyond = _beyond(law, old, share)
-        binding = np.abs(np.asarray(law(places)) - heights) > 0.95 * share
+        binding = np.abs(np.asarray(law(places)) - heights) > 0.95 * room
         near = np.abs(places[:, None] - beyond).min(axis=1) <= _APART
         places = np.sort(np.concatenate([places[binding & ~near], beyond]))
     raise SolverFailure("the places where a law is at its tolerance do not settle", problem=problem)

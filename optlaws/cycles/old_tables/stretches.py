@@ -18,6 +18,7 @@ from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array
 from optlaws.numerics import chebyshev
 from optlaws.synthesis.solution import Solution
+from optlaws.tolerances import VALUE_ROUNDING
 
 StretchKind: TypeAlias = Literal["dwell", "rise", "return"]
 
@@ -91,12 +92,12 @@ def seam_of(heights: Array, room: float) -> float:
 def stretches_of(motion: FittedMotion) -> Iterator[Stretch]:
     """The dwells and moves of a fitted motion, from its first place to its last one."""
     x, y = motion.samples.places, motion.samples.heights
-    least = _SHORTEST * float(np.ptp(x))
+    least, least_rise = _SHORTEST * float(np.ptp(x)), VALUE_ROUNDING * float(np.ptp(y))
     at, level = float(x[0]), motion.moves[0].position_before(float(x[0]))
     for move in motion.moves:
         start = move.start if move.start - at > least else at
         if start > at:
-            yield _between(at, start, level, move.low)
+            yield _between(at, start, level, move.low, least_rise)
         stop = move.stop if float(x[-1]) - move.stop > least else float(x[-1])
         law = move.name or _law_of(move, x, y)
         part = Stretch(
@@ -109,12 +110,12 @@ def stretches_of(motion: FittedMotion) -> Iterator[Stretch]:
         yield replace(part, distance=float(apart.max(initial=0.0)))
         at, level = stop, move.high
     if float(x[-1]) > at:
-        yield _between(at, float(x[-1]), level, motion.moves[-1].position_behind(float(x[-1])))
+        yield _between(at, float(x[-1]), level, motion.moves[-1].position_behind(float(x[-1])), least_rise)
 
 
-def _between(start: float, stop: float, low: float, high: float) -> Stretch:
-    """A dwell, or what runs at constant velocity."""
-    if low == high:
+def _between(start: float, stop: float, low: float, high: float, least: float) -> Stretch:
+    """A dwell, or what runs at constant velocity and rises or falls by more than the least."""
+    if abs(high - low) <= least:
         return Stretch("dwell", start, stop, low, high)
     slope = abs((high - low) / (stop - start))
     peaks = PeakInterval(slope, slope), PeakInterval(0.0, 0.0), PeakInterval(0.0, 0.0)

@@ -1,0 +1,131 @@
+"""Better laws in the moves of old cams: against a linear program, with moving ends, at crests, in small tolerances."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.optimize import linprog
+
+from optlaws import Cycle, Dwell, MotionLaw, Return, Rise, catalogue, read_cycle_table, split_table
+from tests.cycles.test_cam_files import units_of
+from tests.internals.cycles import law_of_move
+
+QUINTIC = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
+
+
+def least_acceleration(old: MotionLaw, share: float, ends: np.ndarray, jerk: float, degree: int) -> float:
+    """The least C of polynomials near a law, with a, b and c given at both ends: a linear program at 601 places."""
+    k = np.linspace(0.0, 1.0, 601)
+    series = [np.polynomial.Chebyshev.basis(n, [0.0, 1.0]) for n in range(degree + 1)]
+    a, c, j = (np.column_stack([one.deriv(nu)(k) if nu else one(k) for one in series]) for nu in (0, 2, 3))
+    at_ends = np.vstack([[one.deriv(nu)(k[[0, -1]]) if nu else one(k[[0, -1]]) for one in series] for nu in range(3)])
+    equations = at_ends.reshape(3, degree + 1, 2).transpose(0, 2, 1).reshape(6, degree + 1)
+    rows, right, no = [], [], np.zeros((len(k), 1))
+    for matrix, low, high, peak in (
+        (a, np.asarray(old(k)) - share, np.asarray(old(k)) + share, no),
+        (c, np.zeros(len(k)), np.zeros(len(k)), no + 1.0),
+        (j, np.full(len(k), -jerk), np.full(len(k), jerk), no),
+    ):
+        rows += [np.hstack([matrix, -peak]), np.hstack([-matrix, -peak])]
+        right += [high, -low]
+    answer = linprog(
+        [*np.zeros(degree + 1), 1.0],
+        A_ub=np.vstack(rows), b_ub=np.concatenate(right),
+        A_eq=np.hstack([equations, np.zeros((6, 1))]), b_eq=ends.T.ravel(),
+        bounds=(None, None), method="highs",
+    )  # fmt: skip
+    assert answer.status == 0
+    return float(answer.fun)
+
+
+def two_movers() -> tuple[np.ndarray, np.ndarray]:
+    """The second of two movers on a track of 1,500 mm: it keeps 60 mm in curves and 100 mm on straights."""
+    master = np.arange(0, 1500.1, 5.0)
+    gap = np.full_like(master, 60.0)
+    for start, step in ((0, 40), (250, -40), (750, 40), (1000, -40)):
+        gap += step * QUINTIC(np.clip((master - start) / 100, 0, 1))
+    return 0.24 * master, master - gap
+
+
+def test_moves_that_run_on_in_constant_velocity_are_bettered() -> None:
+    old = split_table(*two_movers())
+    new = old.bettered(0.2)
+    pairs = zip(new.moves, old.moves, strict=True)
+    better = [(part, was) for part, was in pairs if part.solution is not None]
+    assert len(better) == 4
+    for part, was in better[:1]:
+        law, before = law_of_move(part), law_of_move(was)
+        share = 0.2 / abs(part.stroke)
+        ends = np.array(law.boundary_values(3))
+        ends[:, 2] = 0.0
+        least = least_acceleration(before, share, ends, 1.2 * before.constants.J.value, 21)
+        assert least * (1 - 1e-5) <= law.constants.C.value <= least * (1 + 1e-3)
+    for gain in new.gains(old):
+        assert gain.deviation <= 0.2
+        assert not gain.share(2) > -0.1
+    cycle = new.cycle(speed="12 rpm")
+    for part in new.stretches:
+        beside = part.start + np.array([-1e-7, 1e-7])
+        assert np.ptp(cycle.at_angle(beside % 360.0, 1)) <= 1e-6 * cycle.peak(1)
+        assert np.ptp(cycle.at_angle(beside % 360.0, 2)) <= 1e-4 * cycle.peak(2)
+
+
+def test_moves_that_turn_without_a_dwell_are_bettered_and_meet() -> None:
+    x = np.arange(361.0)
+    turn = np.radians(x)
+    old = split_table(x, np.round(10.0 * (1.0 - np.cos(turn)) + 1.5 * (1.0 - np.cos(2.0 * turn)), 3), digit=1e-3)
+    new = old.bettered(0.05)
+    assert [part.kind for part in new.stretches] == ["rise", "return"]
+    assert all(part.solution is not None and part.solution.status.value == "optimal" for part in new.moves)
+    for gain in new.gains(old):
+        assert gain.share(2) < -0.05
+        assert gain.deviation <= 0.05
+    up, down = (law_of_move(part) for part in new.moves)
+    assert up.c(1.0) < 0.0
+    assert up.c(1.0) == pytest.approx(-down.c(0.0), rel=1e-9)
+
+
+def test_a_corner_stays_and_the_move_at_it_is_bettered() -> None:
+    u = np.arange(0.0, 360.1, 0.5) % 90.0
+    lift = np.where(u <= 60.0, 3.05 * np.sin(np.pi / 2.0 * u / 60.0), np.where(u < 80.0, 3.05 * (80.0 - u) / 20.0, 0.0))
+    old = split_table(0.5 * np.arange(len(u)), lift, tolerance=0.001)
+    new = old.bettered(0.1)
+    rises = [(part, was) for part, was in zip(new.moves, old.moves, strict=True) if part.kind == "rise"]
+    assert len(rises) == 4
+    for part, was in rises:
+        law = law_of_move(part)
+        assert law.b(0.0) == pytest.approx(np.pi / 2.0, rel=1e-3)
+        assert abs(law.b(1.0)) < 1e-9
+        # of any law from that velocity to rest over its stroke
+        assert 1.0 <= law.constants.C.value < 0.92 * law_of_move(was).constants.C.value
+
+
+def test_a_tolerance_that_is_too_small_is_named_with_one_that_is_enough() -> None:
+    x = np.arange(361.0)
+    law = catalogue["simple harmonic"].law
+    y = 35.0 * (law(np.clip(x / 120.0, 0, 1)) - law(np.clip((x - 180.0) / 120.0, 0, 1)))
+    old = split_table(x, np.round(y, 3), digit=1e-3)
+    small = old.bettered(0.02)
+    assert [part.law for part in small.moves] == ["simple harmonic"] * 2
+    for part in small.moves:
+        assert part.kept == "no law of order 3 and degree 15 is so near"
+        assert 0.02 < part.needs < 35.0 / 4.0
+        assert "within" in small.why_kept(part)
+    enough = old.bettered(max(part.needs for part in small.moves))
+    assert all(gain.share(2) < 0.0 for gain in enough.gains(old))
+
+
+@pytest.mark.parametrize("name", ["c99", "codesys-xyva", "codesys-cambuilder", "iec-st", "twincat-nc2", "kas", "isg"])
+def test_a_cycle_of_least_acceleration_has_no_better_one_after_its_export(name: str, tmp_path: Path) -> None:
+    cycle = Cycle(
+        [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()],
+        speed="200 rpm", minimise="acceleration", order=3, degree=15,
+    )  # fmt: skip
+    made = cycle.export(name, master="360 deg", unit="mm")
+    file = tmp_path / f"cam{made.format.extension}"
+    file.write_text(made.text, "utf-8")
+    old = read_cycle_table(file, **units_of(made))
+    new = old.bettered(0.1)
+    assert all(part.solution is None for part in new.moves)
+    at = np.linspace(0.0, 360.0, 721)
+    assert old.at(at) == pytest.approx(1e3 * np.asarray(cycle.at_angle(at % 360.0)), abs=1e-3)
