@@ -9,6 +9,7 @@ from scipy.interpolate import BPoly
 
 from optlaws import InputError, MotionLaw, catalogue, read_cycle_table, read_law
 from tests.exports.samples import press
+from tests.internals.cli import exit_code
 
 QUINTIC = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
 
@@ -209,3 +210,23 @@ def test_the_law_of_a_controller_is_that_which_runs(tmp_path: Path) -> None:
     file.write_text(file.read_text().replace("25.0", "5.0"))
     with pytest.raises(InputError, match=r"rise\.st: it ends where it begins, .* read_cycle_table"):
         read_law(file)
+
+
+def test_jumps_of_acceleration_between_functions_leave_the_jerk_without_bound(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Three cubics up, whose accelerations differ where they meet, and one down."""
+    file = tmp_path / "cubics.csv"
+    file.write_text("x deg;y mm;v\n0;0;0\n60;4;0.2\n120;20;0.25\n180;30;0\n360;0;0\n")
+    table = read_cycle_table(file, columns=(1, 2, 3))
+    rise, back = table.moves
+    assert (rise.stop, back.law) == (180.0, "cubic")
+    assert "jerk without bound" in str(table)
+    ends = ([0.0, 0.0], [4.0, 0.2], [20.0, 0.25], [30.0, 0.0], [0.0, 0.0])
+    curve = BPoly.from_derivatives([0.0, 60.0, 120.0, 180.0, 360.0], ends)
+    x = np.linspace(0.0, 360.0, 721)
+    assert table.at(x) == pytest.approx(curve(x), abs=1e-12)
+    both_sides = np.abs(curve.derivative(2)(np.concatenate([x, x[1:] - 1e-9])))
+    assert list(table.peaks[1]) == pytest.approx([both_sides.max()] * 2)
+    assert exit_code(["cycle", str(file), "--columns", "1,2,3", "--json"]) == 0
+    assert '{"low": null, "high": null}' in capsys.readouterr().out

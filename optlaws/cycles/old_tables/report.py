@@ -145,8 +145,8 @@ class OldTableReport:
 
 
 def _plain(interval: PeakInterval) -> dict[str, float | None]:
-    """An interval for JSON; None where a peak cannot be known from the table."""
-    return {"low": interval.low, "high": bounded(interval.high)}
+    """An interval for JSON; None where a peak has no bound, or none that can be known from the table."""
+    return {"low": bounded(interval.low), "high": bounded(interval.high)}
 
 
 @lru_cache(maxsize=256)

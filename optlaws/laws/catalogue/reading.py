@@ -57,7 +57,9 @@ def law_of_points(
     if points.pieces and tolerance is None:
         with located(str(file)):
             if points.heights[0] == points.heights[-1]:
-                raise InputError("it ends where it begins, as a whole cycle does: read_cycle_table divides it")
+                raise InputError(
+                    "it ends where it begins, as a whole cycle does: read_cycle_table and `optlaws cycle` divide it"
+                )
             return law_of_pieces(points.pieces)
     k, a, unit, stroke = points.places, points.heights, points.digit, abs(points.heights[-1] - points.heights[0])
     if unit > _COARSEST * stroke > 0.0:

@@ -15,7 +15,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError, located
 from optlaws.files import reading
 from optlaws.files.writing import MARK
-from optlaws.laws.catalogue.tables.controller_files import decoded
+from optlaws.laws.catalogue.tables.controller_files import FEWEST_POINTS, decoded
 from optlaws.laws.catalogue.tables.curve_pieces import pieces_between
 from optlaws.laws.catalogue.tables.table_points import TablePoints, resolution_of
 from optlaws.laws.catalogue.tables.tokens import NUMBER, TextCell, cells_of, no_number, uncommented
@@ -128,7 +128,7 @@ def rate_of(places: Array, heights: Array, velocities: Array, lines: Sequence[in
     """The speed of the master where velocities are per second; 1 where they are per unit of the master.
 
     The integral of their magnitude by the trapezium rule, which is sharp between rests, is the way of the positions
-    times the rate.
+    times the rate. Points that are too few for this have velocities by the master.
 
     >>> x = np.linspace(0.0, 10.0, 101)
     >>> round(rate_of(x, np.sin(x), 5.0 * np.cos(x), range(101)), 2), rate_of(x, np.sin(x), np.cos(x), range(101))
@@ -139,6 +139,8 @@ def rate_of(places: Array, heights: Array, velocities: Array, lines: Sequence[in
         raise InputError(
             f"line {lines[int(np.argmax(steps <= 0.0)) + 1]}: places of points with velocities must increase"
         )
+    if len(places) < FEWEST_POINTS:
+        return 1.0
     way = float(np.abs(np.diff(heights)).sum())
     rate = float(np.abs(steps * means).sum()) / way if way else 1.0
     off = np.abs(means - rate * np.diff(heights) / steps) / max(float(np.abs(velocities).max()), np.finfo(float).tiny)
