@@ -19,7 +19,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
+from optlaws.cams.curves.motion_by_angle import as_motion
 from optlaws.cams.disc import DiscCam, Turning, sense
 from optlaws.cams.followers.contact import CURVATURE, PRESSURE, FollowerContact, LinearLimit
 from optlaws.cams.followers.follower import CamFollower, Place, shown
@@ -160,8 +160,8 @@ def best_cam(
     inner = _solved(cycle, given, limits.in_si, below=True)
     outer = _solved(cycle, given, limits.in_si, below=False) if not given.contact.linear else inner
     inner, outer = _with_curvature(cycle, given, limits.radius, inner, outer)
-    pieces = tuple(solved.piece for solved in inner)
-    cam = replace(given, motion=CamMotion.of_pieces(pieces, cycle.duration, cycle.axis))
+    plan = cycle.with_solutions([best.solution for best in inner if best.solution is not None])
+    cam = replace(given, motion=plan)
     if broken := limits.broken(cam.extremes):
         raise SolverFailure(
             sentence(
@@ -170,10 +170,14 @@ def best_cam(
                 joined("; ", broken.values()),
             )
         )
-    objective, bound = _objective(cycle, inner), _total(cycle, outer)
-    solutions = tuple(best.solution for best in inner if best.solution is not None)
-    proven = objective - bound <= 1e-6 * objective
-    return BestCam(cam, objective, bound, Status.OPTIMAL if proven else Status.LOCAL, solutions)
+    return cam_of_laws(plan, cam, _total(cycle, outer))
+
+
+def cam_of_laws(plan: Plan, cam: DiscCam, lower_bound: float | None = None) -> BestCam:
+    """The cam of laws that are known, with the lower bound that their own bounds give unless another is given."""
+    bound = _total(plan, _with_solutions(plan)) if lower_bound is None else lower_bound
+    proven = plan.objective - bound <= 1e-6 * plan.objective
+    return BestCam(cam, plan.objective, bound, Status.OPTIMAL if proven else Status.LOCAL, tuple(plan.solutions))
 
 
 @documented_by(CamLimits)
@@ -224,29 +228,59 @@ def best_prime_circle(
     if limit not in limits:
         raise InputError(f"the least prime circle of all laws under this follower takes the limit {_NAMED[limit]}")
     sizing = {limit: limits[limit]}
-    needs, solutions, pieces = [], [], []
+    solutions = []
     for piece, solution, _ in _with_solutions(cycle):
-        excesses = [limit.excess() for limit in linear_limits(piece, contact, sizing, cycle.duration, below=True)]
-        if solution is None:
-            needs += [abs(piece.stroke) * excess.value(piece.law) for excess in excesses]
-            pieces.append(piece)
-            continue
-        optimum = synthesize(_problem(solution.problem, (), excesses))
-        needs.append(abs(piece.stroke) * optimum.lower_bound)
-        solutions.append(optimum)
-        pieces.append(replace(piece, law=optimum.law))
-    motion = CamMotion.of_pieces(tuple(pieces), cycle.duration, cycle.axis)
-    least = least_prime_circle(
-        motion, follower, pressure_angle=pressure_angle, radius_of_curvature=radius_of_curvature, turning=turning
+        if solution is not None:
+            excesses = _excesses(piece, contact, sizing, cycle.duration)
+            solutions.append(synthesize(_problem(solution.problem, (), excesses)))
+    plan = cycle.with_solutions(solutions)
+    return prime_circle_of_laws(
+        plan, follower, pressure_angle=pressure_angle, radius_of_curvature=radius_of_curvature, turning=turning
     )
+
+
+@documented_by(CamLimits)
+def prime_circle_of_laws(
+    plan: Plan,
+    follower: CamFollower,
+    *,
+    pressure_angle: NumberOrQuantity | None = None,
+    radius_of_curvature: NumberOrQuantity | None = None,
+    turning: Turning = "counterclockwise",
+) -> BestPrimeCircle:
+    """The least prime circle of laws that need the least, with the bound that their own bounds give.
+
+    Parameters
+    ----------
+    plan
+        The laws, as `best_prime_circle` finds them.
+    follower, turning
+        Those of `best_prime_circle`.
+    """
+    given = CamLimits(pressure_angle, radius_of_curvature)
+    limit, contact = follower.sizing_limit, _unit_contact(plan, follower, sense(turning))
+    sizing = {name: size for name, size in given.in_si.items() if name == limit}
+    needs = []
+    for piece, solution, _ in _with_solutions(plan):
+        if solution is None:
+            excesses = _excesses(piece, contact, sizing, plan.duration)
+            needs += [abs(piece.stroke) * excess.value(piece.law) for excess in excesses]
+        else:
+            needs.append(abs(piece.stroke) * solution.lower_bound)
+    least = least_prime_circle(plan, follower, **given.to_dict(), turning=turning)
     # the unit contact is 1 m high, and what is needed goes beyond that
-    return BestPrimeCircle(least, follower.prime_radius(1.0 + max(needs)), tuple(solutions))
+    return BestPrimeCircle(least, follower.prime_radius(1.0 + max(needs)), tuple(plan.solutions))
+
+
+def _excesses(piece: Piece, contact: FollowerContact, limits: dict[str, float], period: float) -> list[Functional]:
+    """By how much a piece goes beyond the limits of a follower at a height."""
+    return [limit.excess() for limit in linear_limits(piece, contact, limits, period, below=True)]
 
 
 _NAMED = {PRESSURE: "pressure_angle='30 deg'", CURVATURE: "radius_of_curvature='5 mm'"}
 
 
-def _unit_contact(cycle: Cycle, follower: CamFollower, turning: float) -> FollowerContact:
+def _unit_contact(cycle: Cycle | Plan, follower: CamFollower, turning: float) -> FollowerContact:
     """The contact of a follower 1 m above the cam's centre."""
     motion = as_motion(cycle, follower.axis)
     return follower.contact(Place(follower.prime_radius(1.0), *motion.range, motion.slopes, turning))
@@ -261,7 +295,7 @@ def linear_limits(
     return contact.linear_limits(piece, limits, TURN * piece.duration / period, below=below)
 
 
-def _with_solutions(cycle: Cycle) -> Solved:
+def _with_solutions(cycle: Cycle | Plan) -> Solved:
     """The pieces of a cycle, each with the solution of its problem if its law is optimal."""
     if not cycle.solutions:
         raise InputError("cycle: none of its laws is optimised: leave the law of a move out, or give law='optimal'")
@@ -351,13 +385,7 @@ def _problem(problem: Problem, windows: Sequence[Window], objectives: Sequence[F
     return replace(problem, symmetric=False, minimise=minimise, windows=(*problem.windows, *windows, inside))
 
 
-def _objective(cycle: Cycle, solved: Solved) -> float:
-    if not kind_of(cycle.minimise)[0].order:
-        return _plan(cycle, solved).objective
-    return _total(cycle, [best._replace(solution=None, bound=None) for best in solved])
-
-
-def _total(cycle: Cycle, solved: Solved) -> float:
+def _total(cycle: Cycle | Plan, solved: Solved) -> float:
     """The objective of a cycle whose pieces have their lower bounds, or else the constants of their laws."""
     (kind, mean), sizes = kind_of(cycle.minimise), []
     if not kind.order:
@@ -373,7 +401,7 @@ def _total(cycle: Cycle, solved: Solved) -> float:
     return max(size for _, size in sizes)
 
 
-def _plan(cycle: Cycle, solved: Solved) -> Plan:
+def _plan(cycle: Cycle | Plan, solved: Solved) -> Plan:
     """The cycle with the solutions of its pieces, whose force or power is that of its drive."""
     return cycle.with_solutions([best.solution for best in solved if best.solution is not None])
 

@@ -10,7 +10,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optlaws.cams.barrel import BarrelCam
-from optlaws.cams.best_laws import BestCam, BestPrimeCircle, best_cam, best_prime_circle
+from optlaws.cams.best_laws import (
+    BestCam,
+    BestPrimeCircle,
+    best_cam,
+    best_prime_circle,
+    cam_of_laws,
+    prime_circle_of_laws,
+)
 from optlaws.cams.cam_values import (
     Values,
     cam_differences,
@@ -49,7 +56,7 @@ from optlaws.cycles.usual_law import usual_cycle
 from optlaws.echo import shortened
 from optlaws.entries.declared import entries_of
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located
-from optlaws.jobs.cam_entries import BarrelProblemFile, CamProblemFile
+from optlaws.jobs.cam_entries import BarrelProblemFile, CamOfMotion, CamProblemFile
 from optlaws.kept import kept_property
 from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.motion.quantities import MICRO, MILLI, TURN, TURN_DEG, Exact
@@ -59,6 +66,8 @@ from optlaws.results import Results
 from optlaws.sentences import capital
 from optlaws.shown.report import ReportTable, Section
 from optlaws.shown.summary import Row
+from optlaws.studies.problem_entries import steady
+from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import FORCE_ROUNDING
 
 if TYPE_CHECKING:
@@ -111,28 +120,55 @@ def read(data: Mapping[str, Any], file: Path) -> CamResult | BarrelResult:
             for each in spec.file:
                 each.check_writer()
             return CamResult.of_file(spec)
-        cam = BarrelCam(spec.cycle, **spec.barrel.to_dict(), turning=spec.turning)
-        section, table = barrel_section(cam), barrel_coordinates(cam, spec.rows, spec.cutter_radius)
-        sections = (section, barrel_differences(cam))
-        data = {"unit": "SI"} | {name: value for each in sections for name, value in each.data.items()}
-        return BarrelResult(spec, sections, data, table, partial(barrel_figure, cam))
+        return BarrelResult.of_file(spec)
+
+
+def stored(data: Mapping[str, Any]) -> CamResult | BarrelResult:
+    """The result that `cam.json` holds, computed again from its entries and the solutions of its laws.
+
+    No laws are sought. A lower bound under limits that are not linear in the laws is that of the data.
+    """
+    entries = data["cam"]
+    spec = (BarrelProblemFile if "barrel" in entries else CamProblemFile).from_dict(entries)
+    plan = spec.cycle.with_solutions([Solution.from_dict(each) for each in data["solutions"]])
+    if isinstance(spec, BarrelProblemFile):
+        return BarrelResult.of_file(spec, plan)
+    return CamResult(spec, plan, (data.get("best") or {}).get("lower_bound"))
 
 
 class BarrelResult(NamedTuple):
     """The barrel cam of a problem file, with what `CamResult` has."""
 
     spec: BarrelProblemFile
+    plan: Plan
     sections: tuple[Section, ...]
     data: dict[str, Any]
     table: ReportTable
     drawn: Callable[[str], Figure]
 
+    @classmethod
+    def of_file(cls, spec: BarrelProblemFile, known: Plan | None = None) -> BarrelResult:
+        """The cam of a problem file, or of laws of its motion that are known."""
+        plan = known or spec.cycle.solve()
+        cam = BarrelCam(plan, **spec.barrel.to_dict(), turning=spec.turning)
+        sections, table = (
+            (barrel_section(cam), barrel_differences(cam)),
+            barrel_coordinates(cam, spec.rows, spec.cutter_radius),
+        )
+        data = _proven(spec, plan) | {name: value for each in sections for name, value in each.data.items()}
+        return cls(spec, plan, sections, data, table, partial(barrel_figure, cam))
+
 
 @dataclass(frozen=True)
 class CamResult:
-    """The disc cam of a problem file with what is sought of it; a section is empty of what the file does not ask."""
+    """The disc cam of a problem file with what is sought of it; a section is empty of what the file does not ask.
+
+    The laws of its motion are sought unless they are `known`, such as those of a file, with the `bound` stated of them.
+    """
 
     spec: CamProblemFile
+    known: Plan | None = None
+    bound: float | None = None
 
     @classmethod
     def of_file(cls, spec: CamProblemFile) -> CamResult:
@@ -152,6 +188,8 @@ class CamResult:
         if spec.best == "prime circle":
             if radius is not None:
                 raise InputError("best = 'prime circle' computes prime_radius: leave it out, or give best = 'laws'")
+            if self.known is not None:
+                return prime_circle_of_laws(self.known, follower, **limits)
             return best_prime_circle(spec.cycle, follower, **limits)
         if radius is None and (spec.best == "offset" or not spec.limits.in_si):
             raise InputError(
@@ -159,14 +197,32 @@ class CamResult:
                 "the least one that keeps them is taken; or give best = 'prime circle'"
             )
         if spec.best == "laws":
-            return best_cam(spec.cycle, self._usual_radius if radius is None else radius, follower, **limits)
+            radius = self._usual_radius if radius is None else radius
+            if self.known is None:
+                return best_cam(spec.cycle, radius, follower, **limits)
+            cam = DiscCam(self.known, radius, follower, turning=spec.turning)
+            return cam_of_laws(self.known, cam, None if self._has_linear_limits(cam) else self.bound)
         if spec.best is None:
-            return None if radius is not None else least_prime_circle(spec.cycle, follower, **limits)
+            return None if radius is not None else least_prime_circle(self.motion, follower, **limits)
         if not isinstance(follower, TranslatingRoller):
             raise InputError(f"best = 'offset' is of a translating roller, got a {follower.kind}")
         if "offset" in follower.to_dict():
             raise InputError("follower: best = 'offset' computes the offset: leave it out")
-        return best_offset(spec.cycle, radius, follower, turning=spec.turning)
+        return best_offset(self.motion, radius, follower, turning=spec.turning)
+
+    @property
+    def motion(self) -> Cycle | Plan:
+        """The motion of the file, with the laws that are known."""
+        return self.spec.cycle if self.known is None else self.known
+
+    def _has_linear_limits(self, cam: DiscCam) -> bool:
+        """Whether the limits of a cam are linear in its laws, so that their own bounds are bounds of all laws."""
+        return bool(cam.contact.linear) and not (cam.contact.roller and self.spec.limits.radius is not None)
+
+    @property
+    def takes_its_bound(self) -> bool:
+        """Whether the lower bound is the stated one, as that of laws whose limits are not linear in them."""
+        return self.bound is not None and self.spec.best == "laws" and not self._has_linear_limits(self.cam)
 
     @property
     def _usual_radius(self) -> Any:
@@ -184,7 +240,7 @@ class CamResult:
         """The cam, with what is sought."""
         spec, sought = self.spec, self.sought
         if sought is None:
-            return DiscCam(spec.cycle, spec.radius, spec.follower, turning=spec.turning)
+            return DiscCam(self.motion, spec.radius, spec.follower, turning=spec.turning)
         return sought.least.cam if isinstance(sought, BestPrimeCircle) else sought.cam
 
     @kept_property
@@ -209,8 +265,8 @@ class CamResult:
 
     def forces_of(self, surfaces: Surfaces) -> CamForces:
         """The cam's forces at the speed of its cycle."""
-        cycle, beside = self.spec.cycle, dict[str, Any]()
-        if self.cam.motion is not cycle:  # laws that were found for a cam are no cycle, but go as fast
+        cycle, beside = self.motion, dict[str, Any]()
+        if not isinstance(self.cam.motion, Cycle | Plan):  # a motion by angle has neither
             beside = {"speed": Exact(TURN / cycle.duration, "rad/s"), "drive": cycle.drive}
         if self._needs_spring:
             force, stiffness = _SPRING_UNITS[self.cam.displacement.axis]
@@ -224,9 +280,7 @@ class CamResult:
     def plan(self) -> Plan:
         """The motion with the cam's laws, which says what they take of the limits."""
         best = self.sought
-        return (
-            self.spec.cycle.with_solutions(best.solutions) if isinstance(best, OPTIMISED) else self.spec.cycle.solve()
-        )
+        return self.spec.cycle.with_solutions(best.solutions) if isinstance(best, OPTIMISED) else self.motion.solve()
 
     @kept_property
     def usual(self) -> CamResult | None:
@@ -261,7 +315,7 @@ class CamResult:
     @kept_property
     def laws(self) -> Section:
         """What is least, with its bound and its status, among which laws it was found, and what is taken of limits."""
-        plan, best, rows = self.plan, self._best, self._best.facts
+        plan, rows = self.plan, self._best
         laws = {each.name: getattr(each.stretch.given, "law", OPTIMAL) for each in plan.peaks}
         given = [f"{name} {shortened(law)}" for name, law in laws.items() if law != OPTIMAL]
         known = [
@@ -273,32 +327,40 @@ class CamResult:
             least = f"least {plan.minimise}"
             rows = [Row(least, (plan.objective, plan.lower_bound), objective_unit(plan), note=plan.status.value)]
         table = ReportTable.of_pairs(rows, "value", "no laws are below", "status") if rows else None
-        data = {**best.data, "laws": _of_laws(plan)}
-        return Section("Laws for the cam", rows, table, data, note="\n\n".join(known), digits=6)
+        return Section("Laws for the cam", rows, table, self.of_laws, note="\n\n".join(known), digits=6)
 
     @kept_property
-    def _best(self) -> Section:
-        """The quality of the laws that were optimised for the cam; nothing where they are the cycle's own."""
-        best, cycle = self.sought, self.spec.cycle
-        name, unit = cycle.minimise, objective_unit(cycle)
+    def of_laws(self) -> dict[str, Any]:
+        """The quality of the laws for programs."""
+        best, name = self.sought, self.spec.cycle.minimise
+        data = {"laws": _of_laws(self.plan)}
         if isinstance(best, BestCam):
             objective, status = best.objective, best.status.value
+        elif isinstance(best, BestPrimeCircle):
+            name, objective = "prime circle", best.least.radius
+            status = "optimal" if objective - best.lower_bound <= _SIZE_MET * objective else "local"
+        else:
+            return data
+        best_of = {"minimise": name, "objective": objective, "status": status, "lower_bound": best.lower_bound}
+        return {"best": best_of, **data}
+
+    @property
+    def _best(self) -> list[Row]:
+        """The quality of the laws that were optimised for the cam; nothing where they are the cycle's own."""
+        best, cycle, rows = self.sought, self.spec.cycle, list[Row]()
+        name, unit = cycle.minimise, objective_unit(cycle)
+        if isinstance(best, BestCam):
             rows = [
-                Row(f"least {name} under the limits of the cam", (objective, best.lower_bound), unit, note=status),
+                Row(f"least {name} under the limits of the cam", (best.objective, best.lower_bound), unit),
                 Row(f"least {name} without them", (cycle.objective, cycle.lower_bound), unit, note=cycle.status.value),
             ]
         elif isinstance(best, BestPrimeCircle):
-            objective, of_cycle = best.least.radius, self._least_prime_circle(cycle)
-            status = "optimal" if objective - best.lower_bound <= _SIZE_MET * objective else "local"
-            sizes = MILLI * objective, MILLI * best.lower_bound
-            rows = [Row("least prime circle of all laws", sizes, "mm", note=status)]
+            of_cycle = self._least_prime_circle(cycle)
+            sizes = MILLI * best.least.radius, MILLI * best.lower_bound
+            rows = [Row("least prime circle of all laws", sizes, "mm")]
             if isinstance(of_cycle, LeastPrimeCircle):
                 rows.append(Row(f"of the laws of least {name}", (MILLI * of_cycle.radius, None), "mm"))
-            name = "prime circle"
-        else:
-            return Section()
-        data = {"minimise": name, "objective": objective, "status": status, "lower_bound": best.lower_bound}
-        return Section(facts=rows, data={"best": data})
+        return [row._replace(note=row.note or self.of_laws["best"]["status"]) for row in rows[:1]] + rows[1:]
 
     @kept_property
     def report(self) -> CamReport:
@@ -489,8 +551,8 @@ class CamResult:
     @property
     def data(self) -> dict[str, Any]:
         """The cam for programs, in metres and radians: enclosures as pairs, with the angle of the cam."""
-        data: dict[str, Any] = {"unit": "SI", "prime_radius": None, "base_radius": None}
-        sized = (self.laws, self.report.section, self.sizes, self.pair, self.differences)
+        data = {**_proven(self.spec, self.plan), "prime_radius": None, "base_radius": None, **self.of_laws}
+        sized = (self.report.section, self.sizes, self.pair, self.differences)
         for section in (*sized, *self.loads, self.offset, self.spring, self.manufactured):
             data |= section.data
         return data
@@ -503,6 +565,11 @@ class CamResult:
     def drawn(self, title: str) -> Figure:
         """The picture of the cam."""
         return cam_figure(self.cam, title, None if self.usual is None else (USUAL, self.usual.cam))
+
+
+def _proven(spec: CamOfMotion, plan: Plan) -> dict[str, Any]:
+    """The entries of a cam with the solutions of its laws and their proofs, from which its numbers follow."""
+    return {"unit": "SI", "cam": spec.to_dict(), "solutions": steady([each.to_dict() for each in plan.solutions])}
 
 
 def _of_laws(plan: Plan) -> dict[str, Any]:

@@ -1,24 +1,23 @@
-"""What files hold: solutions and certificates, fronts, least times, plans and axes that overlap, claim by claim."""
+"""What files hold: solutions and certificates, fronts, least times, plans and cams, claim by claim."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
-from math import inf, nextafter, sqrt
 from operator import itemgetter
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from optlaws.echo import unknown_key
-from optlaws.errors import InputError, OptlawsError
+from optlaws.errors import InputError
 from optlaws.files.reading import check_names, entries_of, of_known_format
 from optlaws.lazy import imported
 from optlaws.numbers import listed, real
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.timed_move import MoveObjective, TimedMove
-from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
+from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.constants import FUNCTIONALS, meant, present_name
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.proven.front import FrontPoint, ProvenFront
@@ -30,14 +29,13 @@ from optlaws.verification.exact.bound import Along, Proof, prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.least_times import least_time_of_any_law
 from optlaws.verification.file_entries import NO_FILE, FileEntry, entries, is_entry, kind_of
+from optlaws.verification.machine_results import axes, cam, of_cycle, overlap_of_axes, plan
 from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import (
     Claim,
     Data,
     Verification,
-    at_most,
     compare,
-    differences,
     every_claim,
     near,
     with_claims,
@@ -309,183 +307,12 @@ def _shown(value: Fraction | None) -> str:
     return "nothing" if value is None else repr(float(value))
 
 
-def _plan(data: Data) -> Verification:
-    """Check the solutions of a plan, each by itself, that they are those of its cycle, and its numbers."""
-    rows = {f"solutions[{i}]": each for i, each in enumerate(listed(data["solutions"], "solutions", _MOST_POINTS))}
-    for place, each in rows.items():
-        if not isinstance(each, Mapping) or kind_of(each) != "solution":
-            raise InputError(f"{place} is no solution with its problem, its law and its certificate")
-    plan = _plan_of(data)
-    others = {name: value for name, value in data.items() if name not in {*plan, "about"}}
-    return _of_cycle(
-        lambda: imported("optlaws.cycles.cycle").Plan.from_dict(plan),
-        lambda _: {place: solution(each) for place, each in rows.items()},
-        others,
-    )
-
-
-def _plan_of(data: Data) -> Data:
-    """The entries of a plan without its numbers."""
-    return {name: data[name] for name in ("cycle", "solutions", "chosen", "bound") if name in data}
-
-
-def _of_cycle(
-    read: Callable[[], Any], parts: Callable[[Any], Mapping[str, Verification]], stated: Data | None = None
-) -> Verification:
-    """Check the parts of a plan, each by itself, that its laws are those of its cycle, and what is stated of them."""
-    solved, numbers = None, list[Claim]()
-    try:
-        solved = read()
-        wrong = solved.solve().contradiction()
-        detail = wrong or f"they meet its joints and keep its limits, in doubles; status {solved.status.value}"
-    except OptlawsError as error:
-        wrong = detail = str(error)
-    known = parts(solved)
-    if stated and solved is not None:
-        proven = list(_objective_of_cycle(solved, [each.bound for each in known.values()], stated))
-        numbers = [*proven, *_numbers(stated, solved.report().stored, {claim.name for claim in proven})]
-    every = [claim for place, each in known.items() for claim in every_claim(each, f"{place}: ")]
-    claim = Claim("the laws of the cycle", proven=False, detail=detail, checked=bool(wrong))
-    return with_claims(Verification(), [*every, claim, *numbers])
-
-
-#: the constant of a law by the order of its derivative, as a peak and as a root mean square
-_CONSTANTS = {1: ("B", ""), 2: ("C", "rms_c"), 3: ("J", "rms_j"), 4: ("snap", "rms_snap")}
-
-
-def _objective_of_cycle(plan: Any, bounds: list[float | None], stated: Data) -> Iterator[Claim]:
-    """The claims of the objective and the lower bound of a cycle, in SI units, where it is of a derivative."""
-    objective = plan.specification.in_si
-    nu, mean = objective.kind.order, objective.mean
-    name = _CONSTANTS.get(nu, ("", ""))[mean]
-    if plan.bound is not None:
-        detail = (
-            f"{plan.bound!r} stated, which laws that share a limit or were selected among equals do not prove alone"
-        )
-        yield Claim("lower_bound", proven=False, detail=detail, checked=False)
-    if not name or not bounds or stated.get("objective") is None:
-        return
-    proven = {id(piece): bound for (_, piece, _), bound in zip(plan.laws, bounds, strict=True)}
-    rows = list[tuple[Fraction, list[float | None]]]()
-    for piece in plan.pieces:
-        unit = abs(Fraction(piece.stroke)) / Fraction(piece.duration) ** nu
-        low, high = enclosed(ExactLaw(piece.law).term(FUNCTIONALS[name])) if unit else (0.0, 0.0)
-        if high == inf:
-            return
-        share = Fraction(piece.duration) / Fraction(plan.duration)
-        rows.append((share * unit**2 if mean else unit, [low, high, proven.get(id(piece), low)]))
-
-    def total(i: int) -> Fraction:
-        sizes = [weight * Fraction(values[i] or 0.0) ** (2 if mean else 1) for weight, values in rows]
-        return sum(sizes, Fraction(0)) if mean else max(sizes)
-
-    low, high = rounded_down(total(0)), rounded_up(total(1))
-    ends = (nextafter(sqrt(low), -inf), nextafter(sqrt(high), inf)) if mean else (low, high)
-    yield near("objective", number(stated, "objective"), ends, 0.0)
-    if stated.get("lower_bound") is not None and plan.bound is None and plan.of_its_problems():
-        least = Fraction(nextafter(sqrt(rounded_down(total(2))), -inf)) if mean else total(2)
-        yield at_most("lower_bound", number(stated, "lower_bound"), least, 0.0)
-
-
-def _numbers(stated: Data, known: Data, apart: Container[str] = ()) -> Iterator[Claim]:
-    """The claims of numbers beside laws: those that differ from what the laws have, and what is only computed again.
-
-    What has a claim of its own stands `apart`.
-    """
-    wrong = list(differences(stated, known, ""))
-    yield from wrong
-    names = ", ".join(name for name, value in stated.items() if value is not None and name not in apart)
-    if names and not wrong:
-        yield Claim(
-            "the numbers", proven=False, detail=f"computed again in doubles, they agree: {names}", checked=False
-        )
-
-
 def _fastest_cycle(data: Data) -> Verification:
     stored = imported("optlaws.cycles.fastest_cycle").FastestCycle
-    checked = _of_cycle(lambda: stored.from_dict(data), lambda fastest: verify_all(fastest.claims()) if fastest else {})
+    checked = of_cycle(lambda: stored.from_dict(data), lambda fastest: verify_all(fastest.claims()) if fastest else {})
     detail = "that they are those of the cycle, in a millionth less than their times, is not computed again"
     motions = Claim("the motions of the proofs", proven=False, detail=detail, checked=False)
     return replace(checked, unchecked=(*checked.unchecked, motions))
-
-
-def _axes(data: Data) -> Verification:
-    """Check what is stated of the axes of a machine together: their interlocks, and their overlap."""
-    try:
-        claims = list(_together(data))
-    except OptlawsError as error:
-        claims = [Claim("the axes together", proven=False, detail=str(error))]
-    if data.get("transitions") is not None:
-        detail = "their laws and proofs are in transitions.json"
-        claims.append(Claim("the transitions", proven=False, detail=detail, checked=False))
-    return with_claims(Verification(), claims)
-
-
-def _together(data: Data) -> Iterator[Claim]:
-    face = imported("optlaws.cycles.axes.machine_axes")
-    read = imported("optlaws.cycles.cycle").Plan.from_dict
-    plans = {name: read(_plan_of(plan)) for name, plan in data["axes"].items()}
-    rows, overlap = listed(data.get("interlocks") or [], "interlocks", _MOST_POINTS), data.get("overlap")
-    rules = [entries_of(row, ["rule"], "an interlock")["rule"] for row in rows]
-    if overlap is None:
-        known = face.Axes(plans, interlocks=rules)
-        yield from _interlocks(known)
-    else:
-        axes = face.Axes({name: plan.specification for name, plan in plans.items()}, interlocks=rules)
-        entries = {name: value for name, value in overlap.items() if name not in {"status", "gain"}}
-        known = face.Overlap.stated({**entries, "axes": axes})
-        yield from _overlap_claims(known)
-    stated = {name: data[name] for name in ("interlocks", "overlap") if data.get(name) is not None}
-    yield from _numbers(stated, known.report().data)
-
-
-def _overlap_of_axes(data: Data) -> Verification:
-    """Check the objective, the interlocks and the bound of axes that overlap, all computed again from the machine."""
-    overlap = built(imported("optlaws.cycles.axes.machine_axes").Overlap.stated, data, "the axes that overlap")
-    return with_claims(Verification(), _overlap_claims(overlap))
-
-
-def _overlap_claims(overlap: Any) -> Iterator[Claim]:
-    wrong = built(lambda stated: stated.contradiction(), overlap, "the axes that overlap")
-    detail = wrong or f"{overlap.objective!r} stated, which its axes have within their limits, in doubles"
-    yield Claim(f"the {overlap.goal}", proven=False, detail=detail, checked=bool(wrong))
-    if not wrong:
-        yield from (*_interlocks(overlap.axes), _bound(overlap), _binding(overlap))
-
-
-def _interlocks(axes: Any) -> Iterator[Claim]:
-    """The claims that interlocks are clear over the whole cycle, by enclosures of the positions."""
-    for least in axes.clearances:
-        detail = f"{least.status}, {least.text}; {least.bound!r} {least.unit} or more everywhere"
-        yield Claim(f"interlock {least.interlock.label}", least.status == "clear", detail, least.status != "open")
-
-
-def _bound(overlap: Any) -> Claim:
-    """The claim that no other instants have less, sought again."""
-    name = "no other instants"
-    try:
-        again = overlap.again()
-    except OptlawsError as error:
-        return Claim(name, proven=False, detail=str(error))
-    detail = f"{overlap.lower_bound!r} stated, {again.lower_bound!r} sought again"
-    low = overlap.lower_bound <= again.lower_bound * (1.0 + STORED_VALUE)
-    agrees = low and overlap.objective >= again.lower_bound * (1.0 - STORED_VALUE)
-    return Claim(name, proven=False, detail=detail, checked=not agrees)
-
-
-def _binding(overlap: Any) -> Claim:
-    """The claim that what is named leaves no room and nothing else does, at the instants of the file.
-
-    What leaves about as much as counts as none may be named or not.
-    """
-    name, stated = "what leaves no room", set(overlap.binding)
-    try:
-        surely, hardly = (set(overlap.bound_by(share)) for share in (0.5, 2.0))
-    except OptlawsError as error:
-        return Claim(name, proven=False, detail=str(error))
-    detail = f"{', '.join(overlap.binding)} stated; {', '.join(sorted(hardly))} by the instants, in doubles"
-    agrees = surely <= stated <= hardly and len(stated) == len(overlap.binding)
-    return Claim(name, proven=False, detail=detail, checked=not agrees)
 
 
 #: how an entry of each kind is verified
@@ -496,9 +323,10 @@ _VERIFIED: Mapping[str | None, Callable[[Data], Verification]] = {
     "move limit": move_limit,
     "least time": _least_time,
     "time front": _time_front,
-    "axes": _axes,
-    "overlap": _overlap_of_axes,
-    "plan": _plan,
+    "axes": axes,
+    "cam": cam,
+    "overlap": overlap_of_axes,
+    "plan": plan,
     "fastest cycle": _fastest_cycle,
     "solution": solution,
     "law": law_alone,

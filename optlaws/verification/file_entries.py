@@ -51,6 +51,7 @@ _KINDS = (
     ("time front", {"minimise", "fastest", "points"}),
     ("overlap", {"goal", "axes", "given"}),
     ("axes", {"unit", "axes"}),
+    ("cam", {"unit", "cam", "solutions"}),
     ("plan", {"cycle", "solutions"}),
     ("fastest cycle", {"given", "cycle", "proofs"}),
     ("solution", {"law", "certificate"}),

@@ -534,6 +534,7 @@ def test_false_constants_inside_results_without_proofs_are_found(tmp_path: Path,
     constants: dict[str, Any] = law.constants.to_dict()
     constants["C"]["value"] *= 1.1
     data = json.loads((ROOT / "results/cam_rocker/cam.json").read_text("utf-8"))
+    del data["cam"], data["solutions"]  # as earlier versions wrote it
     data["deep"] = [{"radius": 0.1, "law": law.to_dict(), "constants": constants}]
     changed = tmp_path / "changed.json"
     changed.write_text(json.dumps(data), "utf-8")
@@ -541,12 +542,13 @@ def test_false_constants_inside_results_without_proofs_are_found(tmp_path: Path,
     assert "deep[0]" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("file", ["cam_rocker/cam.json"])
 def test_results_without_proofs_name_what_is_not_checked_and_what_contradicts_itself(
-    file: str, tmp_path: Path, capsys: Capture
+    tmp_path: Path, capsys: Capture
 ) -> None:
-    data = json.loads((ROOT / "results" / file).read_text("utf-8"))
-    assert exit_code(["verify", str(ROOT / "results" / file)]) == 3
+    data = json.loads((ROOT / "results" / "cam_rocker" / "cam.json").read_text("utf-8"))
+    del data["cam"], data["solutions"]  # as earlier versions wrote it
+    (tmp_path / "cam.json").write_text(json.dumps(data), "utf-8")
+    assert exit_code(["verify", str(tmp_path / "cam.json")]) == 3
     text = capsys.readouterr().err
     assert all(name in text for name, value in data.items() if name not in {"about", "unit"} and value is not None)
     changed = tmp_path / "changed.json"

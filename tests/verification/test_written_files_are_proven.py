@@ -22,7 +22,8 @@ Entries: TypeAlias = "dict[str, Any]"
 #: what the pages on verification say is computed again in doubles, or has no proof beside it
 PARTLY = re.compile(
     r"not checked (at [^:]* s: )?"
-    r"(the best possible( time)?: .* in doubles|the file: results without proofs|the arrays: |the law: )"
+    r"(the best possible( time)?: .* in doubles|the file: results without proofs|the arrays: |the law: "
+    r"|the laws of the cycle: .* in doubles|the numbers: .* in doubles|lower_bound: .* do not prove alone)"
 )
 #: exit codes of a problem that is refused, has no law, or whose solver stopped
 REFUSED = {2, 3, 4}
