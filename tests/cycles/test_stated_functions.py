@@ -230,3 +230,28 @@ def test_jumps_of_acceleration_between_functions_leave_the_jerk_without_bound(
     assert list(table.peaks[1]) == pytest.approx([both_sides.max()] * 2)
     assert exit_code(["cycle", str(file), "--columns", "1,2,3", "--json"]) == 0
     assert '{"low": null, "high": null}' in capsys.readouterr().out
+
+
+def test_constants_and_lines_of_a_program_are_dwells_and_constant_velocities(tmp_path: Path) -> None:
+    rows = "{{0.0, 0.1}, {9.0, 0.0}, {9.0, -0.05}}"
+    program = f"double breaks[4] = {{0.0, 90.0, 180.0, 360.0}};\ndouble coefficients[3][2] = {rows};\n"
+    (tmp_path / "lines.h").write_text(program)
+    table = read_cycle_table(tmp_path / "lines.h")
+    assert [(part.kind, part.stop, part.law) for part in table.stretches] == [
+        ("rise", 90.0, "constant velocity"), ("dwell", 180.0, None), ("return", 360.0, "constant velocity"),
+    ]  # fmt: skip
+    for wrong, says in (
+        ("{9.0, 0.0}, ", "stated as 6 numbers and are 4"),
+        ("9.0, -0.05", "stated as 6 numbers and are 4"),
+    ):
+        (tmp_path / "wrong.h").write_text(program.replace(wrong, ""))
+        with pytest.raises(InputError, match=rf"wrong\.h: line 2: coefficients are {says}: mend them"):
+            read_cycle_table(tmp_path / "wrong.h")
+    (tmp_path / "steps.h").write_text("double breaks[] = {0.0, 90.0, 180.0};\ndouble coefficients[] = {0.0, 9.0};\n")
+    with pytest.raises(
+        InputError, match=r"steps\.h: line 1: a piece ends at 90 with the position 0 and the next begins"
+    ):
+        read_cycle_table(tmp_path / "steps.h")
+    (tmp_path / "one.h").write_text("double breaks[] = {0.0, 90.0, 180.0};\ndouble coefficients[] = {9.0, 9.0};\n")
+    with pytest.raises(InputError, match=r"one\.h: the table never moves"):
+        read_cycle_table(tmp_path / "one.h")

@@ -19,7 +19,7 @@ from optlaws.laws.catalogue.tables.curve_pieces import APART, CurvePiece, law_of
 
 #: positions, or positions, velocities and accelerations, at points inside a move that tell its law, whatever a
 #: controller runs between these
-_TOLD = 8
+_ENOUGH = 8
 _PLACES = 201
 _WITHIN = np.linspace(0.0, 1.0, 9)
 
@@ -83,7 +83,7 @@ def _level(height: float, known: list[float], apart: float) -> float:
 def _between_turns(piece: CurvePiece) -> list[CurvePiece]:
     """A piece divided where it turns; standard laws do not."""
     slopes = [n * value for n, value in enumerate(piece.values)][1:]
-    if piece.law or abs(slopes[0]) >= sum(map(abs, slopes[1:])):
+    if piece.law or len(slopes) < 2 or abs(slopes[0]) >= sum(map(abs, slopes[1:])):
         return [piece]
     roots = np.atleast_1d(Polynomial(np.trim_zeros(piece.values, "b")).deriv().roots())
     turns = sorted(float(root.real) for root in roots if abs(root.imag) <= APART < root.real < 1.0 - APART)
@@ -139,8 +139,8 @@ def _stretch(move: Sequence[CurvePiece], room: float) -> Stretch:
     def off_points(name: str) -> float:
         """The distance at the points where these tell the law, else that of the functions between them."""
         other = catalogue[name].law
-        decided = count >= _TOLD or (
-            3 * count >= _TOLD
+        decided = count >= _ENOUGH or (
+            3 * count >= _ENOUGH
             and all(np.abs(values[nu] - other(joints, nu)).max() <= APART * other.peak(nu).value for nu in (1, 2))
         )
         return apart(name, count if decided else None)

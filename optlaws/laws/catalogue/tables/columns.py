@@ -139,7 +139,7 @@ def rate_of(places: Array, heights: Array, velocities: Array, lines: Sequence[in
         raise InputError(
             f"line {lines[int(np.argmax(steps <= 0.0)) + 1]}: places of points with velocities must increase"
         )
-    if len(places) < FEWEST_POINTS:
+    if len(places) < FEWEST_POINTS or not velocities.any():
         return 1.0
     way = float(np.abs(np.diff(heights)).sum())
     rate = float(np.abs(steps * means).sum()) / way if way else 1.0
