@@ -105,9 +105,14 @@ def test_a_terminal_watches_unless_it_is_told_otherwise(monkeypatch: pytest.Monk
     monkeypatch.setattr(steps, "find_spec", lambda _: None)
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
     assert steps.watched()
-    with steps.without_bars():
+    outer, inner = list[tuple[str, bool]](), list[tuple[str, bool]]()
+    with steps.shown_by(lambda *said: outer.append(said)):
         assert not steps.watched()
-        with steps.without_bars():
-            assert not steps.watched()
-        assert not steps.watched()
+        steps.step("first")
+        with steps.shown_by(lambda *said: inner.append(said)):
+            steps.step("second", stays=True)
+        with steps.Steps("laws", 3) as laws:
+            laws.reach(2)
+    assert (outer, inner) == ([("first", False), ("laws, 2 of 3", False)], [("second", True)])
+    steps.step("nobody hears it")
     assert steps.watched()

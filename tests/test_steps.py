@@ -38,7 +38,7 @@ def test_a_terminal_sees_the_steps_of_a_front_and_of_an_array(monkeypatch: pytes
 
 def test_nobody_sees_what_is_quick_or_said_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
     terminal = watched_by(monkeypatch)
-    with steps.without_bars():
+    with steps.shown_by(lambda *_: None):
         pareto_front(Problem(order=3), points=4, between=(1.6, 1.8))
         assert type(watching()) is Silent
     assert isinstance(watching(), Bar)

@@ -6,6 +6,7 @@ import ast
 import inspect
 import re
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import wraps
 from keyword import iskeyword
@@ -15,6 +16,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter, Token
 
 from optlaws.cli.app import head_of
+from optlaws.cli.show import busy
 from optlaws.entries.declared import Declared, entries_of
 from optlaws.errors import InputError
 
@@ -179,11 +181,13 @@ def _sentences(text: str) -> dict[str, str]:
     return {name: " ".join(text.split()) for names, text in _PARAMETER.findall(section) for name in names.split(", ")}
 
 
-def takes(plot: str = "", *, json: bool = True, **groups: Options) -> Callable[[Command], Command]:
+def takes(
+    plot: str = "", *, json: bool = True, watched: bool = True, **groups: Options
+) -> Callable[[Command], Command]:
     """Make a function a command: it gets groups of options as tables, by names of its parameters.
 
     Its answer is given as --plot and --json say, where `plot` is the sentence of that option; all other sentences of
-    the help are those of its docstring.
+    the help are those of its docstring. While it works, stderr says so, unless it is `watched` otherwise.
     """
 
     def decorated(command: Command) -> Command:
@@ -205,9 +209,11 @@ def takes(plot: str = "", *, json: bool = True, **groups: Options) -> Callable[[
             tables = {name: group.values_of(typed) for name, group in groups.items()}
             known = {each.name for each in parameters}
             mine = {name: value for name, value in typed.items() if name in declared or name not in known}
-            answer = command(*arguments, **{**mine, **tables})
+            title = f"optlaws {command.__name__}"
+            with busy(title) if watched else nullcontext():
+                answer = command(*arguments, **{**mine, **tables})
             if answer is not None:
-                answer.give(typed.get("plot"), as_json=typed.get("json", False))
+                answer.give(typed.get("plot"), as_json=typed.get("json", False), name=title)
 
         called.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
         called.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}

@@ -7,12 +7,15 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 from optlaws.errors import OptlawsError
 
 if TYPE_CHECKING:
+    from threading import Event
+
     from matplotlib.figure import Figure
     from rich.console import Console
     from rich.table import Table
@@ -24,6 +27,7 @@ if TYPE_CHECKING:
 
 _WIDEST = 10_000
 _DIGITS = 7
+_PATIENCE, _REFRESHED, _SECONDS = 1.0, 0.2, 10.0  # s, of what is shown while a command works
 
 
 @dataclass(frozen=True)
@@ -43,12 +47,14 @@ class Answer:
         """The answer of what makes a report."""
         return cls(lambda: [report], lambda: report.data, drawn)
 
-    def give(self, picture: Path | None, *, as_json: bool) -> None:
-        """Draw the picture into its file, where there is one, and print the rest."""
-        if picture is not None and self.drawn is not None:
-            save_picture(picture, self.drawn)
+    def give(self, picture: Path | None, *, as_json: bool, name: str = "optlaws") -> None:
+        """Draw the picture into its file, where there is one, and print the rest, of a command of a name."""
+        with busy(name):
+            if picture is not None and self.drawn is not None:
+                save_picture(picture, self.drawn)
+            data = self.data() if as_json else None
         if as_json:
-            print_json(self.data())
+            print_json(data)
         else:
             for part in self.shown():
                 show(part)
@@ -194,12 +200,45 @@ def progress() -> Console:
 
 @contextmanager
 def busy(text: str) -> Iterator[None]:
-    """Show the current step while a terminal displays the output."""
-    console = progress()
-    if console.is_terminal:
-        from optlaws.shown.steps import without_bars
+    """Say on stderr what is being done: on a terminal in a line that changes, else in one every ten seconds."""
+    from threading import Event, Thread
 
-        with console.status(text), without_bars():
+    from optlaws.shown.steps import shown_by
+
+    ended, latest = Event(), [text]
+
+    def watcher(step: str, stays: bool) -> None:  # noqa: FBT001 - as all watchers
+        latest[0] = f"{text}: {step}"
+        if stays:
+            print(latest[0], file=sys.stderr)
+
+    display = _changing_line if sys.stderr is not None and sys.stderr.isatty() else _lines
+    thread = Thread(target=display, args=(ended, latest), daemon=True)
+    thread.start()
+    try:
+        with shown_by(watcher):
             yield
-    else:
-        yield
+    finally:
+        ended.set()
+        thread.join()
+
+
+def _changing_line(ended: Event, latest: list[str]) -> None:
+    """The current step with its time, once it takes long; what else goes to stderr is above it."""
+    if ended.wait(_PATIENCE):
+        return
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    columns = (SpinnerColumn(), TextColumn("{task.description}", markup=False), TimeElapsedColumn())
+    with Progress(*columns, console=progress(), transient=True, redirect_stdout=False) as shown:
+        task = shown.add_task(latest[0])
+        while not ended.wait(_REFRESHED):
+            shown.update(task, description=latest[0])
+
+
+def _lines(ended: Event, latest: list[str]) -> None:
+    """The current step, in a line each time."""
+    for number in count(1):
+        if ended.wait(_SECONDS):
+            return
+        print(f"{latest[0]}, {number * _SECONDS:.0f} s so far", file=sys.stderr)

@@ -65,9 +65,9 @@ def _sentence(each: Entry) -> str:
 
 def sentences(cls: type[Declared]) -> dict[str, str]:
     """What the entries of a declared class say, by their names, and those of its tables; of one name its own."""
-    own = entries_of(cls).values()
-    texts = {each.name: each.about for each in own}
-    for each in own:
+    known = entries_of(cls).values()
+    texts = {each.name: each.about for each in known}
+    for each in known:
         for entries in each.type.tables().values():
             texts |= {name: below.about for name, below in entries.items() if name not in texts}
     return texts

@@ -1,9 +1,9 @@
-"""Steps of long work as a bar, for whoever watches: on a terminal or in a notebook, and only where it takes long."""
+"""Steps of long work, for whoever watches: to the command that runs, or as a bar on a terminal or in a notebook."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
 from threading import current_thread, main_thread
@@ -17,26 +17,34 @@ if TYPE_CHECKING:
 #: seconds; what ends before them needs no bar
 PATIENCE = 2.0
 
-_hidden = False
+#: what a command shows of its work: the current step, or a line that stays
+Watcher = Callable[[str, bool], None]
+_watcher: Watcher | None = None
 
 
 def watched() -> bool:
     """Whether someone sees a bar: stderr is a terminal, or this is a notebook that can show one."""
-    if _hidden or current_thread() is not main_thread():
+    if _watcher is not None or current_thread() is not main_thread():
         return False
     notebook = "ipykernel" in sys.modules and find_spec("ipywidgets") is not None
     return notebook or (sys.stderr is not None and sys.stderr.isatty())
 
 
 @contextmanager
-def without_bars() -> Iterator[None]:
-    """Hide progress bars for the time of a `with` block, as another display reports the progress."""
-    global _hidden  # noqa: PLW0603 - of the one terminal that a process has
-    before, _hidden = _hidden, True
+def shown_by(watcher: Watcher) -> Iterator[None]:
+    """Give a watcher all steps for the time of a `with` block, in place of bars."""
+    global _watcher  # noqa: PLW0603 - of the one terminal that a process has
+    before, _watcher = _watcher, watcher
     try:
         yield
     finally:
-        _hidden = before
+        _watcher = before
+
+
+def step(text: str, *, stays: bool = False) -> None:
+    """Say what is being done, or in a line that stays what has been found, to the command that runs, if one does."""
+    if _watcher is not None and current_thread() is main_thread():
+        _watcher(text, stays)
 
 
 class Steps:
@@ -57,6 +65,7 @@ class Steps:
 
     def reach(self, done: int) -> None:
         """Set the number of steps that are done."""
+        step(f"{self._what}, {done} of {self._total}")
         if self._bar is None and done < self._total and monotonic() - self._began >= PATIENCE and watched():
             self._bar = self._started()
         if self._bar is not None:

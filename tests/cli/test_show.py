@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import re
+import sys
+from io import StringIO
 from pathlib import Path
+from time import sleep
 from typing import Any
 
 import pytest
 
 from optlaws import InfeasibleProblem, smoothstep
-from tests.internals.cli import Answer, show
-from tests.internals.shown import PlainReport, ReportTable, Row, Summary
+from tests.internals.cli import Answer, output, show
+from tests.internals.shown import PlainReport, ReportTable, Row, Summary, steps
 
 Capture = pytest.CaptureFixture[str]
 
@@ -77,3 +80,36 @@ def test_an_answer_that_fails_is_given_first(capsys: Capture) -> None:
     with pytest.raises(InfeasibleProblem, match="no law"):
         answer.give(None, as_json=False)
     assert capsys.readouterr().out == "four\n"
+
+
+class Terminal(StringIO):
+    """A terminal in place of stderr."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+@pytest.mark.parametrize("stream", [StringIO, Terminal])
+def test_a_command_that_takes_long_says_what_it_is_doing(
+    stream: type[StringIO], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    said = stream()
+    monkeypatch.setattr(sys, "stderr", said)
+    monkeypatch.setenv("TERM", "xterm")
+    for name in ("_PATIENCE", "_REFRESHED", "_SECONDS"):
+        monkeypatch.setattr(output, name, 0.01)
+    with output.busy("optlaws: slide.toml"):
+        steps.step("axis slide")
+        steps.step("drive.ratio = 20: optimal", stays=True)
+        steps.step("drive.ratio = 30")
+        while "drive.ratio = 30" not in said.getvalue():
+            sleep(0.01)
+    assert "optlaws: slide.toml: drive.ratio = 20: optimal\n" in said.getvalue()
+    before = said.getvalue()
+    sleep(0.05)
+    assert said.getvalue() == before
+    monkeypatch.setattr(output, "_PATIENCE", 60.0)
+    monkeypatch.setattr(output, "_SECONDS", 60.0)
+    with output.busy("quick"):
+        steps.step("axis slide")
+    assert said.getvalue() == before

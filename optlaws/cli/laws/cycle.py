@@ -87,8 +87,8 @@ def cycle(
                 "--fastest needs a problem file: --save writes one from the table, in which you enter the limits"
             )
         return _old_cam(file, how, cam, out=out, plot=plot)
-    said = {name: value for name, value in how.items() if value != _HOW[name].default}
-    for name, value in given({**said, **cam}).items():
+    typed = {name: value for name, value in how.items() if value != _HOW[name].default}
+    for name, value in given({**typed, **cam}).items():
         raise InputError(f"--{name} is of the table of an old cam, got {shortened(value)} with a problem file")
     if fastest:
         return _greatest_speed(file, out)
@@ -105,14 +105,13 @@ def _greatest_speed(file: Path, out: Path | None) -> Answer:
     from optlaws.results import Results
 
     source, entries = problem_of_job(file, "cycle")
-    with busy(f"{file}"):
-        spec, cycles = read(entries, source)
-        speeds = job.fastest_of(cycles, source)
-        if out is not None:
-            results = Results(source)
-            results.entries["fastest"] = True
-            job.run(results)
-            results.write(out)
+    spec, cycles = read(entries, source)
+    speeds = job.fastest_of(cycles, source)
+    if out is not None:
+        results = Results(source)
+        results.entries["fastest"] = True
+        job.run(results)
+        results.write(out)
     at_best = {name: speed.cycle for name, speed in speeds.items()}
     unproven = [name for name, speed in speeds.items() if speed.status != Status.OPTIMAL]
     return Answer(
@@ -136,7 +135,7 @@ def _job(file: Path, out: Path | None) -> Answer:
 
     @cache
     def results() -> Results:
-        with busy(f"{file}"):
+        with busy(f"optlaws: {file}"):
             return job.done(source)
 
     def drawn() -> Figure:
@@ -165,9 +164,8 @@ def _old_cam(
     if save is not None and save.suffix != ".toml":
         raise InputError(f"--save takes a problem file, whose name ends in .toml, got {save}")
     chosen = None if export is None else format_of(export)
-    with busy(f"{file}"):
-        old = optlaws.read_cycle_table(file, **how)
-        new = None if cam["modernise"] is None else old.bettered(_tolerance(cam["modernise"], old))
+    old = optlaws.read_cycle_table(file, **how)
+    new = None if cam["modernise"] is None else old.bettered(_tolerance(cam["modernise"], old))
     latest, report = new or old, OldTableReport(old, new)
     if new is not None and (save or chosen) and not any(part.solution for part in new.stretches):
         reasons = joined("; ", report.unchanged)

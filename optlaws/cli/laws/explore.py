@@ -5,7 +5,7 @@ from __future__ import annotations
 from optlaws.cli.options import Whole, takes
 
 
-@takes(json=False)
+@takes(json=False, watched=False)
 def explore(file: str | None = None, /, *, port: Whole | None = None, no_browser: bool = False) -> None:
     """Explore laws, fronts and cycles in the browser, from this machine alone: drag a point and the law follows.
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import optlaws
 from optlaws.cli.law_options import LIMITS, one_or_two, read_axes
 from optlaws.cli.options import Signed, Written, given, options, takes
-from optlaws.cli.show import Answer, busy, save
+from optlaws.cli.show import Answer, save
 from optlaws.errors import InputError, located
 
 if TYPE_CHECKING:
@@ -66,14 +66,13 @@ def advise(
     if file is not None and given({**move, "mass": mass}):
         raise InputError("--stroke, --duration and --mass are of a single move: a file has its own")
     wishes = given(wishes)
-    with busy("laws are compared"):
-        if file is None:
-            advice = {"": _of_move(**move, mass=mass, wishes=wishes)}
-        else:
-            advice = {}
-            for name, cycle in read_axes(file, axis, "cam").items():
-                with located(f"{file}: axis {name}"):
-                    advice[name] = optlaws.advise(cycle, **wishes)
+    if file is None:
+        advice = {"": _of_move(**move, mass=mass, wishes=wishes)}
+    else:
+        advice = {}
+        for name, cycle in read_axes(file, axis, "cam").items():
+            with located(f"{file}: axis {name}"):
+                advice[name] = optlaws.advise(cycle, **wishes)
     if output is not None:
         proofs = {name: each.proofs() for name, each in advice.items()}
         save(output, {"axes": proofs} if file is not None else {"move": proofs[""]})

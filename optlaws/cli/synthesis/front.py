@@ -8,7 +8,7 @@ from typing import Any, Literal
 import optlaws
 from optlaws.cli.options import Written, options, takes
 from optlaws.cli.problem_options import problem_options
-from optlaws.cli.show import Answer, busy, exported
+from optlaws.cli.show import Answer, exported
 from optlaws.errors import InputError
 from optlaws.numbers import positive, whole
 from optlaws.synthesis.problem.named_constants import apart
@@ -65,11 +65,10 @@ def front(
     proven_to = positive(within, "within") / 10.0 if to and gap is None else gap
     problem, names = optlaws.Problem.from_dict(entries), tuple(apart(over or ("at_most.B,C" if to else "B,C")))
     front: optlaws.Front | optlaws.ProvenFront
-    if proven_to is None:  # which shows its steps itself
+    if proven_to is None:
         front = optlaws.pareto_front(problem, names, **curve, bound=bound)
     else:
-        with busy("solving"):
-            front = optlaws.proven_front(problem, names, between=curve["between"], gap=proven_to)
+        front = optlaws.proven_front(problem, names, between=curve["between"], gap=proven_to)
     points = whole(curve["points"], "points", least=2)
     report = front.report() if isinstance(front, optlaws.Front) else front.report(points)
     if csv is not None:

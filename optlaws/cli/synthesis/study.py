@@ -17,7 +17,10 @@ if TYPE_CHECKING:
     from optlaws.studies.study import Study
 
 
-@takes("Draw objective and peaks of the finished points over the entry of most values into this file, PNG or SVG.")
+@takes(
+    "Draw objective and peaks of the finished points over the entry of most values into this file, PNG or SVG.",
+    watched=False,
+)
 def study(
     file: Path | None = None,
     *,

@@ -172,7 +172,7 @@ def _of_cam(answers: Answers) -> Answers:
 
 
 def _of_drive(answers: Answers) -> Answers:
-    """Modified sine's jerk."""
+    """Modified sine's jerk as the limit unless one is given."""
     stroke = quantity(answers["stroke"], "angle", "--stroke")
     usual = _peaks_of_usual(("angle", stroke), _si(answers, "duration")[1])["jerk"]
     return {"jerk": answers["jerk"] or usual, "modified_sine_jerk": usual}
