@@ -214,6 +214,7 @@ class Results:
         self.file = given.with_suffix(".toml") if given.suffix == ".py" else given
         self.digits = digits
         self.title = given.stem
+        self.stopped = ""  #: what was stopped by Ctrl-C, so that the results are not all of them
         self._files: dict[str, _File] = {}
 
     @property

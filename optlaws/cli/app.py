@@ -85,6 +85,12 @@ class NotProven(OptlawsError):  # noqa: N818 - a public name of 1.0
     code = NOT_PROVEN
 
 
+class Stopped(NotProven):
+    """Work was stopped by Ctrl-C, and what there was by then is written; the message says what."""
+
+    code = INTERRUPTED
+
+
 class PartlyChecked(NotProven):
     """Nothing of a file is false, and some of it was only computed again in doubles; the message names that."""
 

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.report import CycleReport, motion_table, objective_unit
-from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES
+from optlaws.cycles.report import CycleReport, motion_table
 from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
@@ -20,19 +19,17 @@ from optlaws.jobs.cycle_entries import (
     AxisEntries,
     CycleProblemFile,
     ExportEntries,
-    SweepEntries,
-    SweptCycle,
     read_given,
-    sweeps_of,
 )
+from optlaws.jobs.cycle_sweeps import sweeps_of
 from optlaws.jobs.job_entries import plain_name
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
-from optlaws.motion.quantities import RPM, Exact
+from optlaws.motion.quantities import Exact
 from optlaws.plots.style import figure_of, plot_style
 from optlaws.plots.sweep import sweep_figure
 from optlaws.results import Page, Results
-from optlaws.shown.report import ReportTable
+from optlaws.shown.steps import step
 from optlaws.studies.problem_entries import steady
 
 if TYPE_CHECKING:
@@ -79,6 +76,7 @@ def run(results: Results) -> None:
     _add_interlocks(page, spec.title, cycles, overlap)
     drawn: list[Mechanism] = []
     for name, cycle in cycles.items():
+        step(f"axis {name}")
         results.table(plain_name(name), *CycleReport(cycle).motion(spec.rows), of=f"axis {name}: its table")
         _add_axis(page, f"{spec.title}: {name}", name, cycle, fastest.get(name), drawn)
         if exports[name]:
@@ -87,11 +85,13 @@ def run(results: Results) -> None:
         _add_transition(page, results, transition, cycles[transition.axis], spec.rows)
     if transitions:
         results.data(TRANSITIONS, {transition.name: transition.cam.claims() for transition in transitions})
-    for number, (sweep, rows) in enumerate(zip(spec.sweep, sweeps, strict=True), 1):
-        table, by = sweep_table(sweep, rows), f"{sweep.axis} by {sweep.entry}"
-        results.table(f"sweep_{number}", *table)
-        figure = sweep_figure(*table, f"{spec.title}: {sweep.axis}")
-        page.heading(by).picture(f"sweep_{number}", by, figure).table(*table)
+    for number, sweep in enumerate(sweeps, 1):
+        axis, entry = sweep.entries.axis, sweep.entries.entry
+        results.table(f"sweep_{number}", *sweep.table)
+        figure = sweep_figure(*sweep.table, title=f"{spec.title}: {axis}")
+        page.heading(f"{axis} by {entry}").picture(f"sweep_{number}", f"{axis} by {entry}", figure)
+        page.text(sweep.remark).table(*sweep.table)
+        results.stopped = sweep.remark if sweep.stopped else results.stopped
     facts = {"unit": "SI", "axes": {name: steady(CycleReport(cycle).stored) for name, cycle in cycles.items()}}
     results.data("cycle.json", facts | _beside(cycles, overlap, transitions))
     if fastest:
@@ -121,6 +121,7 @@ def fastest_of(cycles: Mapping[str, Cycle], file: Path) -> dict[str, FastestCycl
     """Each axis at its greatest speed; errors name the file and the axis."""
     fastest = {}
     for name, cycle in cycles.items():
+        step(f"axis {name}: greatest speed")
         with located(f"{file}: axis {name}"):
             fastest[name] = cycle.fastest()
     return fastest
@@ -169,8 +170,8 @@ def _add_axis(
     page.heading(name).picture(plain, title, figure_of(cycle.plot(), title), f"axis {name}: its picture")
     if fastest is not None:
         page.facts(fastest.summary())
-        if fastest.report().beside is not None:
-            page.table(*fastest.report().beside.table)
+        if (beside := fastest.report().beside) is not None:
+            page.table(*beside.table)
     page.report(cycle.report())
     if isinstance(cycle.drive, Drive):
         caption = f"{title}, torque over speed at the motor"
@@ -258,41 +259,3 @@ def _export_row(name: str, export: Export) -> list[Cell]:
     shown = [f"{ratio:.7g}" if abs(ratio) < inf else "jumps" for ratio in ratios]
     deviation = f"{export.report.deviation[0].value:.3g} {export.motion.units.slave}"
     return [name, export.format.name, export.points, *shown, deviation]
-
-
-def sweep_table(sweep: SweepEntries, rows: Sequence[SweptCycle]) -> ReportTable:
-    """Headings and cells of a sweep: the objective with its bound, what drive and motor need, or why there is none."""
-    cycles = [cycle for _, cycle, *_ in rows if cycle is not None]
-    columns = _columns(cycles[0]) if cycles else {}
-    reasons = ["reason"] if any(reason for *_, reason in rows) else []
-    cells: list[list[Cell]] = [
-        [value, status.value, *(None if cycle is None else cell(cycle) for cell in columns.values()), reason]
-        for value, cycle, status, reason in rows
-    ]
-    shown = len(columns) + 2 + len(reasons)
-    return ReportTable([sweep.entry, "status", *columns, *reasons], [row[:shown] for row in cells])
-
-
-def _columns(cycle: Cycle) -> dict[str, Callable[[Cycle], Cell]]:
-    """Table columns for cycles of this kind, by their headings."""
-    columns: dict[str, Callable[[Cycle], Cell]] = {}
-    if cycle.solutions:
-        columns[f"least {cycle.minimise}, {objective_unit(cycle)}"] = lambda each: each.objective
-        columns["proven lower bound"] = lambda each: each.lower_bound or None
-    if cycle.drive is not None:
-        force, unit = FORCES[cycle.axis], FORCE_UNITS[cycle.axis]
-        minimised = cycle.minimise if cycle.solutions else None
-        if minimised != force:
-            columns[f"peak {force}, {unit}"] = lambda each: each.effort.peak_force
-        if minimised != f"rms {force}":
-            columns[f"RMS {force}, {unit}"] = lambda each: each.effort.rms_force
-    if isinstance(cycle.drive, Drive):
-        columns["peak speed of the motor, rpm"] = lambda each: RPM * each.sheet.peak_speed
-        columns["greatest use of the motor, %"] = _use
-    return columns
-
-
-def _use(cycle: Cycle) -> Cell:
-    """The greatest share of a limit of the motor; None where it has none, a word beyond its greatest speed."""
-    use = max((margin.use for margin in cycle.sheet.margins), default=None)
-    return "too fast" if use == inf else None if use is None else 100.0 * use

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from copy import deepcopy
 from dataclasses import KW_ONLY, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 from optlaws.cams import at_shaft  # noqa: F401 - by which the kind "cam" is known
 from optlaws.cycles.axes.interlock import INTERLOCKS, Interlock
@@ -17,7 +16,7 @@ from optlaws.cycles.specification.segments import CycleSegment, Transition
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry, frozen, same, thawed
 from optlaws.entries.value_types import Choice, Either, Listed, Number, ReadBy, Switch, Text, Whole
-from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
+from optlaws.errors import InputError, located
 from optlaws.exports.format import Request
 from optlaws.files.reading import check_names
 from optlaws.jobs.job_entries import ProblemFile
@@ -26,7 +25,6 @@ from optlaws.mechanisms.drives.motor import read_motors
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
 from optlaws.numbers import NumberOrQuantity, Quantity
-from optlaws.synthesis.status import Status
 
 if TYPE_CHECKING:
     from optlaws.cycles.axes.machine_axes import Axes, Overlap
@@ -73,10 +71,6 @@ class SweepEntries(Declared, title="a sweep"):
     entry: str = entry(
         Text(), 'Of the axis, such as "drive.ratio", "mechanism.crank" or "segment.1.duration".', example="drive.ratio"
     )
-
-
-#: a value of an entry, the cycle of the axis with it, None without a motion, its status, and why there is no motion
-SweptCycle: TypeAlias = tuple[str | float, Cycle | None, Status, str]
 
 
 def _constants(value: Any) -> Any:
@@ -155,7 +149,8 @@ class CycleProblemFile(ProblemFile, title="a problem file"):
     rows: int = entry(Whole(2, 100_000), "Lines of the tables.", default=361)
     sweep: tuple[SweepEntries, ...] = entry(
         Listed(ValueOf(SweepEntries), most=4, each="sweep"),
-        "The cycle for each value of an entry, with its objective and what drive and motor need.",
+        "The cycle for each value of an entry, with its objective and what drive and motor need. Beside the best value "
+        "others are added, unless it is an end.",
         default=(),
     )
     fastest: bool = entry(
@@ -201,56 +196,6 @@ def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, A
             with located(f"axis {axis.name}"):
                 cycles[axis.name] = cycle_of(axis, spec.speed, spec.period, file.parent)
         return spec, Axes(cycles, interlocks=spec.interlocks)
-
-
-def sweeps_of(spec: CycleProblemFile, file: Path) -> list[list[SweptCycle]]:
-    """The cycles of every sweep of a file; an error names the file and the sweep."""
-    axes, rows = {axis.name: axis.to_dict() for axis in spec.axis}, []
-    for sweep in spec.sweep:
-        with located(f"{file}: sweep of {sweep.entry}"):
-            check_names([sweep.axis], axes, "axis")
-        with located(str(file)):
-            rows.append([_swept(spec, axes[sweep.axis], sweep.entry, value, file.parent) for value in sweep.values])
-    return rows
-
-
-def _swept(spec: CycleProblemFile, axis: dict[str, Any], entry: str, value: str | float, folder: Path) -> SweptCycle:
-    """The cycle of an axis with another value of an entry, with its laws."""
-    where = f"sweep of {entry}, {value}"
-    try:
-        with located(where):
-            changed = AxisEntries.from_dict(with_entry(axis, entry, value))
-            cycle = cycle_of(changed, spec.speed, spec.period, folder)
-            _ = cycle.peaks  # laws are looked for now
-            return value, cycle, cycle.status, ""
-    except (InfeasibleProblem, SolverFailure) as error:
-        return value, None, Status.of(error), str(error).removeprefix(f"{where}: ")
-
-
-def with_entry(axis: dict[str, Any], entry: str, value: str | float) -> dict[str, Any]:
-    """The entries of an axis with another value of a single entry; parts of a list are counted from 1.
-
-    >>> with_entry({"drive": {"ratio": 20}, "segment": [{"by": "3 mm"}]}, "drive.ratio", 30.0)
-    {'drive': {'ratio': 30.0}, 'segment': [{'by': '3 mm'}]}
-    >>> with_entry({"segment": [{"by": "3 mm"}]}, "segment.1.by", "5 mm")
-    {'segment': [{'by': '5 mm'}]}
-    >>> with_entry({"drive": {"ratio": 20}}, "drvie.ratio", 30.0)
-    Traceback (most recent call last):
-    optlaws.errors.InputError: entry 'drvie.ratio': unknown entry 'drvie'; did you mean 'drive'?
-    """
-    changed = deepcopy(axis)
-    place: Any = changed
-    *way, last = entry.split(".")
-    with located(f"entry {entry!r}"):
-        for part in way:
-            if isinstance(place, dict | list):
-                parts = place if isinstance(place, dict) else {str(i): each for i, each in enumerate(place, 1)}
-                check_names([part], parts, "entry")
-                place = parts[part]
-    if not isinstance(place, dict):
-        raise InputError(f"entry {entry!r} must end in the name of an entry, such as drive.ratio")
-    place[last] = value
-    return changed
 
 
 def cycle_of(

@@ -26,6 +26,7 @@ from optlaws.motion.quantities import UNITS
 from optlaws.numbers import NumberOrQuantity, Quantity
 from optlaws.plots.moves import fronts_figure, motion_figure, strokes_figure
 from optlaws.results import Page, Results
+from optlaws.shown.steps import step
 from optlaws.studies.problem_entries import gap, problem, steady
 from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS
 from optlaws.synthesis.least_time.timed_move import AT_MOTOR
@@ -100,6 +101,7 @@ def sought(spec: FastestProblemFile, file: Path) -> list[SoughtMove]:
     space = problem("problem", {"order": 3}, spec.problem or {})
     moves = []
     for move in spec.move:
+        step(f"move {move.name}")
         try:
             with located(f"move {move.name}"):
                 moves.append(_sought(move, space, file.parent))

@@ -4,8 +4,9 @@ import copy
 import csv
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -25,6 +26,7 @@ from optlaws import (
     Problem,
     Return,
     Rise,
+    Status,
     TranslatingRoller,
     belt,
     cam_mechanism,
@@ -38,8 +40,8 @@ from optlaws import (
 )
 from tests.internals.cli import exit_code
 from tests.internals.files import reading
+from tests.internals.jobs import cycle_sweeps, read_given, sweeps_of
 from tests.internals.jobs import read_of_cycle_entries as read
-from tests.internals.jobs import sweep_table, sweeps_of
 from tests.internals.mechanisms import MechanismKind
 
 LENGTHS = {"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "200 mm", "frame": "280 mm"}
@@ -408,7 +410,7 @@ def test_a_sweep_of_the_ratio_says_what_each_costs(tmp_path: Path) -> None:
     file = tmp_path / "swept.toml"
     file.write_text(with_sweep('axis = "table"\nentry = "drive.ratio"\nvalues = [20, 60, 100]'), "utf-8")
     spec, _ = read(reading.toml(file), file)
-    headings, rows = sweep_table(spec.sweep[0], sweeps_of(spec, file)[0])
+    headings, rows = sweeps_of(spec, file)[0].table
     assert headings[0] == "drive.ratio"
     for row, ratio in zip(rows, (20, 60, 100), strict=True):
         sheet = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2"), ratio=ratio, efficiency=0.85).sheet(
@@ -420,6 +422,77 @@ def test_a_sweep_of_the_ratio_says_what_each_costs(tmp_path: Path) -> None:
         assert cells["RMS torque, N m"] == pytest.approx(sheet.rms_torque, rel=1e-9)
     assert rows[0][-1] == pytest.approx(122.8601, rel=1e-5)  # of the peak torque of 3 N m
     assert rows[2][-1] == pytest.approx(100.0 * 1055.762 * 5.0 / 3000.0, rel=1e-5)  # of the speed
+
+
+def swept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, values: str, objective: Callable[[float], float]) -> Any:
+    """A sweep of the ratio, of cycles that are not computed: their objective is that of a function of it."""
+
+    def cycle_of(axis: Any, *_: Any) -> Any:
+        ratio = axis.drive["ratio"]
+        known = {"objective": objective(ratio), "lower_bound": 0.0, "minimise": "torque", "status": Status.OPTIMAL}
+        return SimpleNamespace(**known, peaks=(), solutions=(1,), axis="angle", drive=None)
+
+    monkeypatch.setattr(cycle_sweeps, "cycle_of", cycle_of)
+    monkeypatch.setattr(cycle_sweeps, "objective_unit", lambda *_: "N m")
+    file = tmp_path / "swept.toml"
+    file.write_text(with_sweep(f'axis = "table"\nentry = "drive.ratio"\nvalues = {values}'), "utf-8")
+    spec, _ = read_given(reading.toml(file), file)
+    return cycle_sweeps.sweeps_of(spec, file)[0]
+
+
+@pytest.mark.parametrize("best", [23.0, 37.7, 55.0])
+def test_a_sweep_goes_on_beside_the_best_value(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, best: float) -> None:
+    sweep = swept(monkeypatch, tmp_path, "[10, 20, 40, 60, 80]", lambda ratio: ratio / best + best / ratio)
+    least = min(row.objective for row in sweep.rows)
+    assert 2.0 <= least <= 2.0 * (1.0 + 3e-4)
+    assert [row.value for row in sweep.rows] == sorted(row.value for row in sweep.rows)
+    assert 5 < len(sweep.rows) <= 9
+    assert "Added between the values that are given: " in sweep.remark
+    assert sweep.table.rows == [[row.value, "optimal", row.objective, None] for row in sweep.rows]
+
+
+@pytest.mark.parametrize(("values", "last"), [("[10, 20, 40]", "40"), ("[40, 20]", "40")])
+def test_a_sweep_says_that_the_best_value_is_the_last(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, values: str, last: str
+) -> None:
+    sweep = swept(monkeypatch, tmp_path, values, lambda ratio: 1.0 / ratio)
+    assert len(sweep.rows) == len(sweep.entries.values)
+    assert f"is at drive.ratio = {last}. It is the last of the values" in sweep.remark
+
+
+def test_a_sweep_that_is_stopped_has_the_rows_so_far(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def objective(ratio: float) -> float:
+        if ratio > 20.0:
+            raise KeyboardInterrupt
+        return ratio
+
+    sweep = swept(monkeypatch, tmp_path, "[10, 20, 40, 60]", objective)
+    assert [row.value for row in sweep.rows] == [10.0, 20.0]
+    assert sweep.stopped
+    assert sweep.remark.startswith("The sweep of drive.ratio was stopped after 2 of 4 values. The least torque")
+    with pytest.raises(KeyboardInterrupt):
+        swept(monkeypatch, tmp_path, "[40, 60]", objective)
+
+
+def test_what_a_stopped_sweep_has_is_written_and_the_command_says_so(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def stopped(*given: Any) -> Any:
+        if given[3] > 20.0:
+            raise KeyboardInterrupt
+        return computed(*given)
+
+    computed = cycle_sweeps._swept
+    monkeypatch.setattr(cycle_sweeps, "_swept", stopped)
+    monkeypatch.chdir(tmp_path)
+    file = tmp_path / "swept.toml"
+    file.write_text(with_sweep('axis = "table"\nentry = "drive.ratio"\nvalues = [20, 60, 100]'), "utf-8")
+    assert exit_code(["cycle", str(file)]) == 130
+    said = capsys.readouterr().err
+    assert "drive.ratio = 20: optimal" in said
+    assert "The sweep of drive.ratio was stopped after 1 of 3 values." in said
+    rows = (tmp_path / "results" / "swept" / "sweep_1.csv").read_text("utf-8").splitlines()
+    assert [row.partition(",")[0] for row in rows[2:]] == ["20"]
 
 
 @pytest.mark.long

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from optlaws.cli.app import Stopped
 from optlaws.cli.options import takes
 from optlaws.cli.show import Answer, busy
 from optlaws.errors import InputError
@@ -35,7 +36,7 @@ def run(*files: Path, out: Path | None = None) -> Answer:
 
     def shown() -> Iterator[str]:
         for source in sources:
-            with busy(source.name):
+            with busy(f"optlaws: {source.name}"):
                 results = job.done(source)
             yield from written(results, out)
 
@@ -55,6 +56,8 @@ def written(results: Results, out: Path | None) -> Iterator[str]:
     for text in (file for file in files if file.suffix == ".md"):
         yield from (line for line in text.read_text("utf-8").splitlines() if not line.startswith("<!--"))
     yield from (str(_near(file)) for file in files)
+    if results.stopped:
+        raise Stopped(results.stopped)
 
 
 def _near(file: Path) -> Path:
