@@ -141,6 +141,11 @@ def positive(value: Any, name: str) -> float:
 
 def circular_frequency(value: Any, name: str = "frequency") -> float:
     """Radians of a free vibration in the rise, as a float above 0 and at most 100 000."""
+    if isinstance(value, str) or hasattr(value, "units"):
+        raise InputError(
+            f"{name} is dimensionless, the radians of the free vibration within the motion, got {shortened(value)}: "
+            "give 2 pi times the frequency in Hz and the duration in s, as Follower.from_vibration does"
+        )
     number = positive(value, name)
     if number > MOST_FREQUENCY:
         raise InputError(

@@ -16,30 +16,18 @@ if TYPE_CHECKING:
     from optlaws.cycles.cycle import Cycle
 
 
-def _without_unit(remedy: str) -> Parameter:
-    """How frequencies without dimension are read, which people give in Hz."""
-
-    def read(hint: object, tokens: Sequence[Token]) -> Any:
-        try:
-            numbers = [float(token.value) for token in tokens]
-        except ValueError:
-            given = " ".join(token.value for token in tokens)
-            raise ValueError(f"{shortened(given)} is no number without a unit: {remedy}") from None
-        return numbers[0] if hint is float else numbers
-
-    return Parameter(converter=read)
+def _dimensionless(_: object, tokens: Sequence[Token]) -> float:
+    """A frequency without dimension, which people give in Hz."""
+    try:
+        return float(tokens[0].value)
+    except ValueError:
+        raise ValueError(
+            f"{shortened(tokens[0].value)} is no number without a unit: the frequency nu is in radians in the rise; "
+            "one in Hz is --natural-frequency, with --duration or --speed"
+        ) from None
 
 
-FollowerFrequency = Annotated[
-    float,
-    _without_unit(
-        "the frequency nu is in radians in the rise; one in Hz is --natural-frequency, with --duration or --speed"
-    ),
-]
-Frequencies = Annotated[
-    list[float],
-    _without_unit("the frequency nu is in radians in the motion: 2 pi times that in Hz and the duration in s"),
-]
+FollowerFrequency = Annotated[float, Parameter(converter=_dimensionless)]
 
 
 def numbers_in(text: str, expected: str) -> list[float]:

@@ -16,8 +16,8 @@ from optlaws.laws.catalogue.reading import read_law
 from optlaws.laws.law import motion_law
 from optlaws.mechanisms.machine.residual import residual_vibration
 from optlaws.motion.piece import factor, unit_of
-from optlaws.motion.quantities import check_scale, either, quantity
-from optlaws.numbers import Quantity, bounded, positive
+from optlaws.motion.quantities import TURN, check_scale, either, quantity, written
+from optlaws.numbers import NumberOrQuantity, Quantity, bounded, positive
 from optlaws.tolerances import AGREEMENT
 
 #: what is more than so many times as great is far above
@@ -115,7 +115,7 @@ def compare_laws(
     *laws: Any,
     stroke: Quantity | None = None,
     duration: Quantity | None = None,
-    frequency: float | tuple[float, float] | None = None,
+    frequency: NumberOrQuantity | tuple[NumberOrQuantity, NumberOrQuantity] | None = None,
     damping: float = 0.0,
 ) -> Comparison:
     """Constants and machine values of several laws beside each other.
@@ -129,8 +129,8 @@ def compare_laws(
         Stroke and duration with their units, such as "35 mm" (or "45 deg") and "0.1 s", for the peaks in the machine:
         v = B h/T, a = C h/T², j = J h/T³.
     frequency
-        Frequency nu of an elastic follower (radians of its free vibration in the motion), or an interval (low, high):
-        the greatest residual acceleration is listed too.
+        Frequency of an elastic follower, such as "12 Hz" beside the duration, or as a number nu: the radians of its
+        free vibration in the motion; or an interval (low, high). The greatest residual acceleration is listed too.
     damping
         Damping ratio of the follower.
 
@@ -144,10 +144,12 @@ def compare_laws(
     >>> comparison = compare_laws("modified sine", "cycloidal", stroke="35 mm", duration="0.1 s", frequency=20)
     >>> [round(row["acceleration, m/s²"], 3) for row in comparison.rows]
     [19.348, 21.991]
+    >>> compare_laws("cycloidal", duration="0.1 s", frequency=("12 Hz", "15 Hz")).frequency
+    (7.539822, 9.424778)
     """
     if not laws:
         raise InputError("there is nothing to compare: name laws, such as 'modified sine' and 'law.json'")
-    if (stroke is None) != (duration is None):
+    if (duration is None and stroke is not None) or (stroke is None and duration is not None and frequency is None):
         raise InputError("stroke and duration go together: the peaks in the machine need both")
     kind, height = ("length", None) if stroke is None else either(stroke, ("length", "angle"), "stroke")
     seconds = None if duration is None else positive(quantity(duration, "time", "duration"), "duration")
@@ -162,7 +164,22 @@ def compare_laws(
         if name in named:
             raise InputError(f"{name} is given twice")
         named[name] = read_law(law) if isinstance(law, str) else motion_law(law)
-    return Comparison(named, height, seconds, unit_of(kind), frequency, damping)
+    nu: Any = frequency
+    nu = [_phase(each, seconds) for each in nu] if isinstance(nu, list | tuple) else _phase(nu, seconds)
+    return Comparison(named, height, None if height is None else seconds, unit_of(kind), nu, damping)
+
+
+def _phase(frequency: Any, seconds: float | None) -> Any:
+    """The radians of a free vibration in a motion, of a frequency with a unit."""
+    if not isinstance(written(frequency), str):
+        return frequency
+    rate = quantity(frequency, "frequency", "frequency", above=0.0)
+    if seconds is None:
+        raise InputError(
+            f"a frequency with a unit needs the duration of the motion: give duration='0.1 s' beside "
+            f"{shortened(frequency)}, or its radians within the motion as a number"
+        )
+    return TURN * rate * seconds
 
 
 def costs(

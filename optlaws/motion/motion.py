@@ -192,6 +192,8 @@ def motion_of_law(
     >>> motion_of_law(smoothstep(3), stroke="90 deg", duration="400 ms").peak(1)
     421.875
     """
+    if stroke is None:
+        raise InputError("say how far the slave moves: give a stroke such as '35 mm' or '45 deg'")
     moved = given_quantity(stroke, SLAVES, "stroke")
     if moved.number == 0.0:
         raise InputError("stroke must not be 0: give how far the slave moves, such as '35 mm'")

@@ -78,3 +78,9 @@ def test_entries_of_the_catalogue_stand_for_their_laws() -> None:
     assert driving_law(OSCILLATOR, entry) == driving_law(OSCILLATOR, entry.law)  # type: ignore[arg-type]
     angles = {"dwell": 1.5, "rise": 1.5, "swing": 0.3, "radius_ratio": 1.0, "inertia_ratio": 0.1}
     assert dwell_mechanism("I", law=entry, **angles) == dwell_mechanism("I", law=entry.law, **angles)  # type: ignore[arg-type]
+
+
+def test_the_dimensionless_frequency_refuses_hertz_with_the_remedy() -> None:
+    wrong: Any = "20 Hz"
+    with pytest.raises(InputError, match=r"frequency is dimensionless, .* got '20 Hz': .*Follower\.from_vibration"):
+        Follower(wrong)

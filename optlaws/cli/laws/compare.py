@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import optlaws
-from optlaws.cli.law_options import Frequencies, one_or_two
+from optlaws.cli.law_options import one_or_two
 from optlaws.cli.options import Written, options, takes
 from optlaws.cli.show import Answer
 
@@ -21,7 +21,7 @@ _COMPARED = "optlaws.cycles.law_comparison:compare_laws"
 def compare(
     *laws: str,
     machine: Mapping[str, Any],
-    frequency: Frequencies | None = None,
+    frequency: list[str] | None = None,
     follower: Mapping[str, Any],
     csv: Written = None,
 ) -> Answer:
@@ -33,14 +33,14 @@ def compare(
         Names or codes of the catalogue, members such as "III(7.2)", JSON files of laws or of `optlaws solve --output`,
         tables of points such as old.csv or "old.csv(tolerance=0.02; columns=1,3)".
     frequency
-        Frequency nu of an elastic follower, radians of its free vibration in the motion, or twice for an interval: the
-        greatest residual acceleration is listed.
+        Frequency of an elastic follower, such as 12Hz beside --duration, or as a number nu: the radians of its free
+        vibration in the motion; twice for an interval. The greatest residual acceleration is listed.
     csv
         Write the table to this file.
     """
     from optlaws.shown.report import ReportTable
 
-    swept = None if frequency is None else one_or_two(frequency)
+    swept = None if frequency is None else one_or_two([_number(each) for each in frequency])
     comparison = optlaws.compare_laws(*laws, **machine, frequency=swept, **follower)
     table = ReportTable(list(comparison.rows[0]), [list(row.values()) for row in comparison.rows])
     if csv is not None:
@@ -48,3 +48,10 @@ def compare(
 
         writing.write(csv, tables.to_csv(*table, about="laws compared"))
     return Answer(lambda: [table, *comparison.remarks], comparison.to_dict, comparison.plot)
+
+
+def _number(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text

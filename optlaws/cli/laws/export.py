@@ -63,7 +63,7 @@ def export(
     law
         A law by its name or file, or a problem file of the job "cycle" (.toml).
     to
-        The format; --list shows all formats.
+        The format; --list shows all formats, and with --to what one of them holds.
     listed
         List the formats: who takes them, how it interpolates, what it cannot hold.
     axis
@@ -74,7 +74,7 @@ def export(
         The file to write.
     """
     if listed:
-        return _formats()
+        return _formats(to)
     if law is None or to is None:
         raise InputError("say what is exported and to which format: optlaws export LAW --to FORMAT; --list lists them")
     from optlaws.exports.export import export_motion
@@ -103,14 +103,19 @@ def _motion(law: str, axis: str | None, move: Mapping[str, Any], points: Mapping
     return cycle.motion(**given({"master": move["master"]}))
 
 
-def _formats() -> Answer:
-    from optlaws.exports.format import FORMATS
+def _formats(to: str | None) -> Answer:
+    from optlaws.exports.format import FORMATS, format_of
     from optlaws.shown.report import ReportTable
+    from optlaws.shown.summary import Row, Summary
 
-    formats = [FORMATS[name] for name in sorted(FORMATS)]
+    formats = [FORMATS[name] for name in sorted(FORMATS)] if to is None else [format_of(to)]
     keys = ("name", "target", "contents", "model", "limits", "extension", "takes")
-    rows = [[form.name, form.target, form.contents, form.model, form.limits] for form in formats]
+    facts = (("target", "target"), ("holds", "contents"), ("runs", "model"), ("limits", "limits"))
     return Answer(
-        lambda: [ReportTable(["format", "target", "holds", "runs", "limits"], rows)],
+        lambda: [
+            ReportTable(["format", "target"], [[form.name, form.target] for form in formats])
+            if to is None
+            else Summary([Row(name, getattr(formats[0], key)) for name, key in facts])
+        ],
         lambda: [{key: getattr(form, key) for key in keys} for form in formats],
     )

@@ -96,7 +96,7 @@ def _overshoot(motion: Motion) -> tuple[str, ...]:
 
 @_plain_format(
     "csv",
-    target="any, comma-separated values with units in the table_heading",
+    target="any, comma-separated values with units in the heading",
     contents="x, y and as many of V, A, J as the interpolation takes",
     model=f"as asked: {', '.join(MODELS)}",
     extension=".csv",

@@ -51,7 +51,11 @@ def test_the_formats_are_listed(capsys: Capture) -> None:
     assert exit_code(["export", "--list", "--json"]) == 0
     assert [load["name"] for load in json.loads(capsys.readouterr().out)] == sorted(FORMATS)
     assert exit_code(["export", "--list"]) == 0
-    assert all(name in capsys.readouterr().out for name in ("codesys-xyva",))
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines[1:]] == sorted(FORMATS)
+    assert max(map(len, lines)) < 100
+    assert exit_code(["export", "--list", "--to", "csv"]) == 0
+    assert "as asked: linear, cubic, akima" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

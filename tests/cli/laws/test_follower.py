@@ -1,6 +1,7 @@
 """The command `optlaws follower`."""
 
 import json
+from math import pi
 from pathlib import Path
 from typing import Any
 
@@ -178,12 +179,24 @@ def test_what_is_wrong_with_quantities_is_said(capsys: Capture, options: tuple[o
     ("command", "remedy"),
     [
         (["follower", "III(7.2)"], "one in Hz is --natural-frequency, with --duration or --speed"),
-        (["compare", "cycloidal", "345"], "2 pi times that in Hz and the duration in s"),
+        (["compare", "cycloidal", "345"], "a frequency with a unit needs the duration of the motion"),
     ],
 )
 def test_a_frequency_in_hertz_is_refused_with_the_remedy(capsys: Capture, command: list[str], remedy: str) -> None:
     assert app.exit_code([*command, "--frequency", "16.7Hz"]) == 2
     text = capsys.readouterr().err
-    assert "--frequency: '16.7Hz' is no number without a unit" in text
+    assert "'16.7Hz'" in text
     assert remedy in text
     assert app.exit_code([*command, "--frequency", "20"]) == 0
+
+
+def test_laws_are_compared_at_a_frequency_in_hertz_beside_the_duration(capsys: Capture) -> None:
+    def compared(*options: str) -> dict[str, Any]:
+        assert app.exit_code(["compare", "cycloidal", "345", "--json", *options]) == 0
+        known: dict[str, Any] = json.loads(capsys.readouterr().out)
+        return known
+
+    band, nu = compared("--frequency", "12 Hz", "--frequency", "900 cpm", "--duration", "0.1 s"), [2.4 * pi, 3.0 * pi]
+    assert band["frequency"] == pytest.approx(nu, rel=1e-14)
+    alone = compared(*(part for each in band["frequency"] for part in ("--frequency", repr(each))))
+    assert [row["residual"] for row in band["rows"]] == [row["residual"] for row in alone["rows"]]
