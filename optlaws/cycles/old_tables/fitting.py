@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from math import log
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.interpolate import BSpline
+from scipy.interpolate import BSpline, make_interp_spline
 
 from optlaws.numbers import Array
 
@@ -62,6 +61,11 @@ class End(NamedTuple):
         """The velocity on the line."""
         return self.line[2] if self.line else 0.0
 
+    def moved(self, along: float, up: float) -> End:
+        """The end, moved along the master and up."""
+        line = None if self.line is None else (self.line[0] + along, self.line[1] + up, self.line[2])
+        return End(line, self.low + along, self.high + along)
+
 
 @dataclass(frozen=True, eq=False)
 class CurveFit:
@@ -101,7 +105,15 @@ class CurveFit:
     @property
     def breaks(self) -> Array:
         """Where its polynomials meet."""
-        return np.unique(self.spline.t)
+        return np.unique(self.spline.t[DEGREE : len(self.spline.t) - DEGREE])
+
+    def moved(self, along: float, up: float) -> CurveFit:
+        """The fit, moved along the master and up."""
+        spline = BSpline(self.spline.t + along, self.spline.c + up, DEGREE)
+        joints = tuple(joint._replace(place=joint.place + along) for joint in self.joints)
+        return replace(
+            self, spline=spline, joints=joints, ends=(self.ends[0].moved(along, up), self.ends[1].moved(along, up))
+        )
 
     @property
     def variance(self) -> float:
@@ -115,6 +127,13 @@ class CurveFit:
     def values(self, places: Array, nu: int = 0) -> Array:
         """A derivative at places, by the master."""
         return np.asarray(_basis(self.spline.t, places, nu) @ self.spline.c)
+
+    def height(self, place: float) -> float:
+        """The position at a place; where it leaves a line, that of the line to the last digit."""
+        for end, at in zip(self.ends, (self.start, self.stop), strict=True):
+            if end.line is not None and place == at:
+                return float(end.value(np.array(place)))
+        return float(self.values(np.array([place]))[0])
 
     def deviation(self, places: Array, nu: int) -> Array:
         """Standard deviations of a derivative at places, for noise of the variance about it."""
@@ -148,15 +167,28 @@ def _knots(start: float, stop: float, joints: Sequence[Joint], pieces: int) -> A
 
 
 class _Fitter:
-    """Fits splines to rows between two ends."""
+    """Fits splines to rows between two ends, or round a turn in which they advance."""
 
-    def __init__(self, places: Array, heights: Array, noise: Array, ends: tuple[End, End]) -> None:
+    def __init__(
+        self,
+        places: Array,
+        heights: Array,
+        noise: Array,
+        ends: tuple[End, End],
+        advance: float | None = None,
+        continuity: int = 2,
+    ) -> None:
         self.x, self.y, self.noise, self.ends = places, heights, noise, ends
+        self.advance, self.continuity = advance, continuity  # of the turn, and at its seam
 
     def thinned(self) -> _Fitter:
         """The same with fewer rows, for searches."""
-        stride = max(1, len(self.x) // _SEARCHED)
-        return _Fitter(self.x[::stride], self.y[::stride], self.noise[::stride], self.ends)
+        some = slice(None, None, max(1, len(self.x) // _SEARCHED))
+        return _Fitter(self.x[some], self.y[some], self.noise[some], self.ends, self.advance, self.continuity)
+
+    def with_seam(self, continuity: int) -> _Fitter:
+        """The same with as many derivatives continuous at the seam of the turn."""
+        return _Fitter(self.x, self.y, self.noise, self.ends, self.advance, continuity)
 
     def solved(
         self, start: float, stop: float, joints: Sequence[Joint], pieces: int, *, whole: bool = False
@@ -170,14 +202,14 @@ class _Fitter:
         for end, away in ((self.ends[0], self.x < start), (self.ends[1], self.x > stop)):
             if end.line is not None:
                 outside += float((((self.y[away] - end.value(self.x[away])) / self.noise[away]) ** 2).sum())
-        fixed, coefficients = self._known(knots)
-        free: NDArray[np.bool_] = np.logical_not(fixed)
+        turned, coefficients = self._known(knots)
         rows = _basis(knots, self.x[inside]) if inside.any() else np.zeros((0, count))
         weights = 1.0 / self.noise[inside]
         left = (self.y[inside] - rows @ coefficients) * weights
-        matrix = rows[:, free] * weights[:, None]
-        parameters = int(free.sum()) + len(joints) + sum(end.line is not None for end in self.ends)
-        if len(left) < free.sum():
+        matrix = (rows @ turned) * weights[:, None]
+        free = turned.shape[1]
+        parameters = free + len(joints) + sum(end.line is not None for end in self.ends)
+        if len(left) < free:
             return np.inf, parameters, None
         q, r = np.linalg.qr(matrix)
         size = np.abs(np.diag(r))
@@ -187,9 +219,8 @@ class _Fitter:
         squares = max(float(left @ left - along @ along), 0.0) + outside
         if not whole:
             return squares, parameters, None
-        coefficients[free] = np.linalg.solve(r, along)
-        factor = np.zeros((count, int(free.sum())))
-        factor[free] = np.linalg.inv(r)
+        coefficients = coefficients + turned @ np.linalg.solve(r, along)
+        factor = turned @ np.linalg.inv(r)
         squares = float((((rows @ coefficients - self.y[inside]) * weights) ** 2).sum()) + outside
         spline = BSpline(knots, coefficients, DEGREE)
         return (
@@ -244,10 +275,10 @@ class _Fitter:
         x, weights = self.x[inside], 1.0 / self.noise[inside]
         rows = _basis(knots, x)
         count = rows.shape[1]
-        fixed, coefficients = self._known(knots)
+        turned, coefficients = self._known(knots)
         if len(x) < count + 2:
             return None
-        q, _ = np.linalg.qr(rows[:, ~fixed] * weights[:, None])
+        q, _ = np.linalg.qr((rows @ turned) * weights[:, None])
         left = (self.y[inside] - rows @ coefficients) * weights
         left = left - q @ (q.T @ left)
         margin = 2.0 * float(np.median(np.diff(x)))
@@ -272,10 +303,11 @@ class _Fitter:
         most = max(gain for gain, _ in candidates)
         return next(joint for gain, joint in candidates if gain >= _AS_GOOD * most)
 
-    def _known(self, knots: Array) -> tuple[NDArray[np.bool_], Array]:
-        """Which coefficients of a spline its ends fix, and the values of these."""
+    def _known(self, knots: Array) -> tuple[Array, Array]:
+        """A matrix and a vector that make all coefficients of a spline out of those that its ends leave free."""
         count = len(knots) - DEGREE - 1
-        fixed, coefficients = np.zeros(count, dtype=bool), np.zeros(count)
+        turned, coefficients = np.eye(count), np.zeros(count)
+        fixed = np.zeros(count, dtype=bool)
         spans = (
             (0, 1, knots[0], knots[DEGREE + 1] - knots[0]),
             (count - 1, count - 2, knots[-1], knots[-DEGREE - 2] - knots[-1]),
@@ -285,7 +317,15 @@ class _Fitter:
                 fixed[[first, second]] = True
                 coefficients[first] = end.value(place)
                 coefficients[second] = coefficients[first] + end.slope * span / DEGREE
-        return fixed, coefficients
+        if self.advance is not None:
+            for nu in range(self.continuity + 1):
+                first, last = (_basis(knots, knots[[at]], nu)[0] for at in (0, -1))
+                differs = (first - last) / last[-1 - nu]
+                differs[-1 - nu] = 0.0
+                turned[-1 - nu] = differs @ turned
+                coefficients[-1 - nu] = differs @ coefficients + (self.advance if nu == 0 else 0.0)
+                fixed[-1 - nu] = True
+        return turned[:, ~fixed], coefficients
 
     def placed(self, fit: tuple[float, float], joints: Sequence[Joint], pieces: int) -> tuple[Joint, ...]:
         """Joints moved to where the sum of squares is least."""
@@ -309,7 +349,13 @@ def _ladder(rows: int, joints: int) -> Iterator[int]:
 
 
 def fits_of(
-    places: Array, heights: Array, noise: Array, ends: tuple[End, End], *, simple: bool = False
+    places: Array,
+    heights: Array,
+    noise: Array,
+    ends: tuple[End, End],
+    advance: float | None = None,
+    *,
+    simple: bool = False,
 ) -> list[CurveFit]:
     """Splines that explain rows as well as any, the simplest one first; none where the rows are too few.
 
@@ -319,10 +365,12 @@ def fits_of(
         Rows, arrays of shape (n,).
     ends
         What is before the first and behind the last row of the motion.
+    advance
+        Of a whole turn, at whose end the motion goes on as at its start: what it advances by.
     simple
         Whether only splines of few pieces without joints are of interest.
     """
-    fitter = _Fitter(places, heights, noise, ends)
+    fitter = _Fitter(places, heights, noise, ends, advance)
     rough = _Search(fitter.thinned(), _ENDS_BY if simple else _PIECES[-1])
     middle = [
         (end.low + end.high) / 2.0 if end.line is not None else float(places[0 if side == 0 else -1])
@@ -331,6 +379,11 @@ def fits_of(
     fits = rough.climbed((), (middle[0], middle[1]), None)
     if not fits:
         return []
+    for continuity in (1, 0) if advance is not None and rough.best(fits).pieces > _SIMPLE else ():
+        other = _Search(rough.fitter.with_seam(continuity), rough.most)
+        family = other.climbed((), (middle[0], middle[1]), None)
+        if family and other.criterion(other.best(family)) < rough.criterion(rough.best(fits)) - _EVIDENT:
+            rough, fits, fitter = other, family, fitter.with_seam(continuity)
     joints: tuple[Joint, ...] = ()
     while not simple and len(joints) < _MOST_JOINTS and rough.best(fits).pieces > _SIMPLE:
         families = [each for pieces in _COARSE if (each := rough.joined(fits, joints, pieces))]
@@ -346,6 +399,27 @@ def fits_of(
         joints = rough.fitter.placed(at, joints, best.pieces)
     whole = _Search(fitter, rough.most)
     return whole.accepted(whole.climbed(joints, at, float(np.median(np.diff(places)))))
+
+
+def interpolation(places: Array, heights: Array, ends: tuple[End, End], advance: float | None = None) -> CurveFit:
+    """The spline through all rows, of which nothing tells how far it is from the motion between them."""
+    levels = heights.astype(np.float64)
+    for side, end in ((0, ends[0]), (-1, ends[1])):
+        if end.line is not None:
+            levels[side] = end.value(places[side])
+    if advance is not None and len(places) > 2 * DEGREE:
+        slope = advance / (places[-1] - places[0])
+        levels = levels - slope * (places - places[0])
+        levels[-1] = levels[0]
+        spline = make_interp_spline(places, levels, DEGREE, bc_type="periodic")
+        # the coefficients of a straight line are its positions at the means of knots
+        means = np.array([spline.t[i + 1 : i + 1 + DEGREE].mean() for i in range(len(spline.c))])
+        spline = BSpline(spline.t, spline.c + slope * (means - places[0]), DEGREE)
+    else:
+        sides = [[(1, end.slope), (2, 0.0)] if end.line is not None else [(3, 0.0), (4, 0.0)] for end in ends]
+        spline = make_interp_spline(places, levels, DEGREE, bc_type=tuple(sides))  # type: ignore[arg-type]  # its stubs know no derivatives
+    count = len(places)
+    return CurveFit(spline, np.zeros((len(spline.c), 1)), (), 0.0, count, count, ends, count - 1)
 
 
 class _Search:

@@ -10,10 +10,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from optlaws.cycles.old_tables.fitting import CurveFit, End, fits_of
+from optlaws.cycles.old_tables.fitting import CurveFit, End, fits_of, interpolation
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
-from optlaws.cycles.old_tables.samples import Samples
-from optlaws.cycles.old_tables.standard import Chain, Outline, criterion
+from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on
+from optlaws.cycles.old_tables.standard import Chain, Outline, criterion, spline_of
 from optlaws.numbers import Array
 
 #: standard deviations by which rows are off a motion at most
@@ -33,10 +33,16 @@ _SIMPLE = 6
 _UNCERTAIN = 3.0
 #: of a peak of a standard law, by which places of its ends that are rounded may change it
 _ROUNDED_LAW = 1e-3
+#: variance about a spline of more than half as many coefficients as rows, over that of the noise: it is no model
+_UNRESOLVED = 9.0
+#: of the length of a turn: what is shorter is no move of its own, and places that are nearer are the same
+SHORTEST, _SAME = 1.0 / 3600.0, 1e-9
 #: times the greatest peak of models: rows that have more speak against all of them
 _AT_ODDS = 1.02
 #: rows farther off a standard law, in standard deviations, are far off it, if they are few of all
 _FAR, _FEW = 6.0, 0.04
+#: of a row far off a spline, by which those beside it may be off
+_ALONE = 0.5
 #: standard laws whose sums of squares differ by less are told apart by no table
 _ALIKE = 16.0
 #: sum of squares that a polynomial of degree 4 takes off noise by chance
@@ -96,6 +102,12 @@ class FittedMove:
     def position_behind(self, place: float) -> float:
         """The position at a place behind it, on the line in which it ends."""
         return self._on(1, place, self.high)
+
+    def moved(self, along: float, up: float) -> FittedMove:
+        """The move, moved along the master and up."""
+        fits = tuple(fit.moved(along, up) for fit in self.fits)
+        start, stop = self.start + along, self.stop + along
+        return replace(self, fits=fits, start=start, stop=stop, low=self.low + up, high=self.high + up)
 
     def _on(self, side: int, place: float, level: float) -> float:
         end = self.fits[0].ends[side] if self.fits else End()
@@ -249,7 +261,7 @@ def _straight(x: Array, y: Array, noise: float) -> tuple[float, float, float] | 
 def motion_of(samples: Samples) -> FittedMotion:
     """The motion of samples: rests as they are found, and between these moves with the models that rows allow."""
     clean = samples.without(samples.suspects)
-    total, rests = [0.0, 1.0], rests_of(clean)
+    rests = rests_of(clean)
     far: list[float] = []
     # rows beside a level with the same rest before and behind them
     rows = [
@@ -262,37 +274,96 @@ def motion_of(samples: Samples) -> FittedMotion:
         far = clean.places[rows].tolist()
         clean = clean.without(np.isin(clean.places, far))
         rests = rests_of(clean)
-    regions = (_Region(clean, before, after, split=True) for before, after in pairwise([*_seam(clean, rests)]))
-    moves: list[FittedMove] = []
-    for region in regions:
-        if region.moves_at_all:
-            moves += region.moves(total)
-            far += region.far
-    suspects = samples.suspects | np.isin(samples.places, far)
+    advance, seam = _advance(clean), float(clean.places[-1])
+    crests: list[float] = []
+    while True:
+        begun, rests = _begun(clean, crests, advance)
+        moves, total, left_out = _moves_between(begun, rests, seam, advance)
+        more = _crests(begun, rests, moves)
+        if not more:
+            break
+        crests += more
+    far += left_out
+    turn = float(np.ptp(clean.places))
+    moves = [move if move.start + move.stop < 2.0 * seam else move.moved(-turn, -advance) for move in moves]
+    apart = np.abs(samples.places[:, None] - np.array(far)), np.abs(samples.places[:, None] + turn - np.array(far))
+    suspects = samples.suspects | (np.minimum(*apart) < _SAME * turn).any(axis=1)
+    moves.sort(key=lambda move: move.start)
     return FittedMotion(replace(samples, suspects=suspects), tuple(moves), total[0] / max(total[1], 1.0))
 
 
-def _seam(samples: Samples, rests: list[Line]) -> list[Line | None]:
-    """Rests with those at the seam of the turn: a table that ends at rest begins so, and the other way round."""
-    if not rests:
-        return [None, None]
-    last, y = len(samples.heights) - 1, samples.heights
-    begins, ends = rests[0].first == 0, rests[-1].last == last
-    advance = float(y[-1] - y[0])
-    if abs(advance) <= NOISE_ROOM * float(samples.noise.max()) + samples.digit:
-        advance = 0.0
-    if ends and not begins:
-        return [Line(0, 0, rests[-1].level - advance, float(samples.places[0])), *rests, None]
-    if begins and not ends:
-        return [None, *rests, Line(last, last, rests[0].level + advance, float(samples.places[-1]))]
-    return [None, *rests, None]
+def _moves_between(
+    samples: Samples, rests: Sequence[Line], seam: float, advance: float
+) -> tuple[list[FittedMove], list[float], list[float]]:
+    """The moves between rests, the sum of their squares with the degrees of freedom left, and places far off."""
+    moves, total, far = list[FittedMove](), [0.0, 1.0], list[float]()
+    for before, after in pairwise([None, *rests, None]):
+        region = _Region(samples, before, after, seam, advance, split=True)
+        if region.moves_at_all:
+            moves += region.moves(total)
+            far += region.far
+    return moves, total, far
+
+
+def _crests(samples: Samples, rests: Sequence[Line], moves: Sequence[FittedMove]) -> list[float]:
+    """The middles of rests of which the moves beside them leave nothing: their rows are the crest of one motion."""
+    x, crests = samples.places, []
+    for rest in rests:
+        middle = 0.5 * (x[rest.first] + x[rest.last])
+        stop = max((move.stop for move in moves if move.start < middle), default=x[0])
+        start = min(
+            (move.start for move in moves if move.start > stop - samples.step and move.stop > middle), default=x[-1]
+        )
+        at_ends = rest.first == 0 or rest.last == len(x) - 1
+        if moves and at_ends:
+            start, stop = moves[0].start + x[-1] - x[0], moves[-1].stop
+        if start - stop < _FEW_BETWEEN * samples.step:
+            crests.append(float(x[0] if at_ends else middle))
+    return crests
+
+
+def _advance(samples: Samples) -> float:
+    """What the motion advances by in a turn; 0 where the noise does not tell it from 0."""
+    advance = float(samples.heights[-1] - samples.heights[0])
+    return 0.0 if abs(advance) <= NOISE_ROOM * float(samples.noise.max()) + samples.digit else advance
+
+
+def _begun(samples: Samples, crests: Sequence[float], advance: float) -> tuple[Samples, list[Line]]:
+    """The turn begun where it rests, else where its velocity is constant, else at its lowest row, and its rests."""
+    last = len(samples.heights) - 1
+
+    def rests_in(turn: Samples) -> list[Line]:
+        lines = []
+        for rest in rests_of(turn):
+            low, high = turn.places[[rest.first, rest.last]] + samples.step * np.array([-1.0, 1.0])
+            at = low + np.mod(np.array(crests) - low, np.ptp(samples.places))
+            if not np.any(at < high):
+                lines.append(rest)
+        return lines
+
+    rests = rests_in(samples)
+    if (rests and rests[0].first == 0 and rests[-1].last == last) or not goes_on(
+        samples.places, samples.heights, samples.noise
+    ):
+        return samples, rests
+    lines = rests or lines_of(samples, 0, last)
+    if lines:
+        longest = max(lines, key=lambda line: line.last - line.first)
+        row = (longest.first + longest.last) // 2
+    else:
+        row = 0 if advance else int(np.argmin(samples.heights)) % last
+    turn = samples.begun_at(row, advance) if row else samples
+    return turn, rests_in(turn)
 
 
 class _Region:
     """The rows between two rests, or a rest and an end of the table."""
 
-    def __init__(self, samples: Samples, before: Line | None, after: Line | None, *, split: bool) -> None:
-        self.samples, self.before, self.after, self.split = samples, before, after, split
+    def __init__(
+        self, samples: Samples, before: Line | None, after: Line | None, seam: float, advance: float, *, split: bool
+    ) -> None:
+        self.samples, self.before, self.after, self.split, self.seam = samples, before, after, split, seam
+        self.advance = advance if split and before is None and after is None else None  # of a whole turn
         x, count = samples.places, len(samples.places)
         first = 0 if before is None else before.last
         last = count - 1 if after is None else after.first
@@ -328,9 +399,18 @@ class _Region:
             x, y, chains = self.x, self.y, self._chains(places)
         chain = chains[0] if chains else None
         plain = chain is not None and self._likely(chain.squares)
-        fits = tuple(fits_of(x, y, self.noise, self.ends, simple=plain))
+        fits = tuple(fits_of(x, y, self.noise, self.ends, self.advance, simple=plain))
+        while fits and not plain and self._left_out_beside(fits[0]):
+            x, y = self.x, self.y
+            fits = tuple(fits_of(x, y, self.noise, self.ends, self.advance))
+        at_seam = self._ends_at_seam(fits)
+        if at_seam is not None:
+            self.ends = at_seam
+            fits = tuple(fits_of(x, y, self.noise, self.ends, self.advance, simple=plain))
+        if fits and len(x) < 2 * fits[0].free and fits[0].variance > _UNRESOLVED:
+            fits = ()
         near = [name for name in chain.names if name] if chain else [""] * (len(places) - 1)
-        if chain is not None and fits and not self._explains(chain, fits[0]):
+        if chain is not None and not (self._explains(chain, fits[0]) if fits else plain):
             chain = None
         if chain is None and self.split and (not fits or fits[0].pieces > _SIMPLE or fits[0].joints):
             parts, counts = self._straight_parts()
@@ -343,12 +423,21 @@ class _Region:
         total[1] += len(x) - (chain.free if chain else fits[0].free if fits else 0)
         yield from self._of_chain(chains, fits) if chain else self._of_fits(fits, places, near)
 
+    def _ends_at_seam(self, fits: Sequence[CurveFit]) -> tuple[End, End] | None:
+        """Its ends, of which one that moves about the seam is exactly there; None where there is none."""
+        room, ends = SHORTEST * float(np.ptp(self.samples.places)), list(self.ends)
+        for side, end in enumerate(self.ends):
+            at = (fits[0].start, fits[0].stop)[side] if fits else np.inf
+            if end.slope and 0.0 < abs(at - self.seam) < room:
+                ends[side] = end._replace(low=self.seam, high=self.seam)
+        return (ends[0], ends[1]) if tuple(ends) != self.ends else None
+
     def _straight_parts(self) -> tuple[list[FittedMove], list[float]]:
         """Moves between runs of constant velocity, with the sum of their squares and the degrees of freedom left."""
         total, moves = [0.0, float(len(self.x))], list[FittedMove]()
         lines = lines_of(self.samples, self.first, self.last)
         for before, after in pairwise([self.before, *lines, self.after]) if lines else ():
-            part = _Region(self.samples, before, after, split=False)
+            part = _Region(self.samples, before, after, self.seam, 0.0, split=False)
             if part.moves_at_all:
                 counts = [0.0, 0.0]
                 moves += part.moves(counts)
@@ -370,6 +459,21 @@ class _Region:
             self.x, self.y, self.noise = self.x[near], self.y[near], self.noise[near]
             return count
         return 0
+
+    def _left_out_beside(self, fit: CurveFit) -> bool:
+        """Leave out single rows far off a spline, whose neighbours are near it; whether there are such."""
+        inside = np.flatnonzero((self.x > fit.start) & (self.x < fit.stop))
+        off = np.abs(fit.values(self.x[inside]) - self.y[inside]) / self.noise[inside]
+        if len(off) < 2 * fit.free:
+            return False
+        off = np.pad(off / max(float(np.median(off)) / MEDIAN, 1.0), 1)
+        beside = np.maximum(off[:-2], off[2:])
+        far = inside[(off[1:-1] > _FAR) & (beside < _ALONE * off[1:-1])]
+        if not far.size or len(self.far) + len(far) > _FEW * len(self.x) + 1:
+            return False
+        self.far += self.x[far].tolist()
+        self.x, self.y, self.noise = (np.delete(row, far) for row in (self.x, self.y, self.noise))
+        return True
 
     def _explains(self, chain: Chain, fit: CurveFit) -> bool:
         """Whether rows are as near standard laws as splines make likely, by the test of Fisher or the simpler model."""
@@ -414,28 +518,54 @@ class _Region:
             if not name:
                 continue
             low, high = map(float, chain.places[i : i + 2])
-            first, last = map(float, chain.heights[i : i + 2])
-            peaks = []
+            most = []
             for nu in (1, 2, 3):
                 standard = (1.0 + _ROUNDED_LAW) * max(
                     each.peak(i, nu) * (1.0 + _UNCERTAIN * each.uncertainty(i, nu)) for each in chains
                 )
-                most = most_peak(simple, nu, low, high) if simple else 0.0
-                peaks.append(self._interval(nu, low, high, max(standard, most), variance))
+                if nu > 1 and chain.has_corners(i):
+                    standard = np.inf
+                most.append(max(standard, most_peak(simple, nu, low, high) if simple else 0.0))
+            if self._goes_on_at_seam(low, high):
+                yield from self._parts((spline_of(chain, i),), [low, self.seam, high], ["", ""], variance, most)
+                continue
+            first, last = map(float, chain.heights[i : i + 2])
+            peaks = [self._interval(nu, low, high, most[nu - 1], variance) for nu in (1, 2, 3)]
             yield FittedMove(low, high, first, last, tuple(fits), name, name, tuple(peaks))
 
     def _of_fits(self, fits: Sequence[CurveFit], places: Sequence[float], near: Sequence[str]) -> Iterator[FittedMove]:
+        most = None
         if not fits:
-            for (low, high), nearest in zip(pairwise(places), near, strict=True):
-                first, last = map(float, np.interp([low, high], self.x, self.y))
-                peaks = [self._interval(nu, low, high, np.inf) for nu in (1, 2, 3)]
-                yield FittedMove(low, high, first, last, (), "", nearest, tuple(peaks))
-            return
+            inside = (self.x >= self.about[0]) & (self.x <= self.about[1])
+            fits = [interpolation(self.x[inside], self.y[inside], self.ends, self.advance)]
+            most = [np.inf] * 3
         best = fits[0]
-        nodes = [best.start, *(_turn(best, place) for place in places[1:-1]), best.stop]
+        nodes, laws = [best.start, *(_turn(best, place) for place in places[1:-1]), best.stop], list(near)
+        for i, (low, high) in enumerate(pairwise(nodes)):
+            if self._goes_on_at_seam(low, high):
+                nodes.insert(i + 1, self.seam)
+                laws[i : i + 1] = ["", ""]
+                break
+        yield from self._parts(fits, nodes, laws, best.variance, most)
+
+    def _goes_on_at_seam(self, low: float, high: float) -> bool:
+        """Whether a move goes on where the table begins again."""
+        room = SHORTEST * float(np.ptp(self.samples.places))
+        return low + room < self.seam < high - room
+
+    def _parts(
+        self,
+        fits: Sequence[CurveFit],
+        nodes: Sequence[float],
+        near: Sequence[str],
+        variance: float,
+        most: Sequence[float] | None,
+    ) -> Iterator[FittedMove]:
+        """Parts of a fitted motion, with the nearest laws, and the most that their peaks are."""
         for (low, high), nearest in zip(pairwise(nodes), near, strict=True):
-            first, last = map(float, best.values(np.array([low, high])))
-            peaks = [self._interval(nu, low, high, most_peak(fits, nu, low, high), best.variance) for nu in (1, 2, 3)]
+            first, last = (fits[0].height(place) for place in (low, high))
+            bounds = most or [most_peak(fits, nu, low, high) for nu in (1, 2, 3)]
+            peaks = [self._interval(nu, low, high, bounds[nu - 1], variance) for nu in (1, 2, 3)]
             yield FittedMove(low, high, first, last, tuple(fits), "", nearest, tuple(peaks))
 
     def _interval(self, nu: int, low: float, high: float, most: float, variance: float = 1.0) -> PeakInterval:

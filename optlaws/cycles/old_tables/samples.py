@@ -17,17 +17,23 @@ _ORDERS = range(4, 9)
 #: fewer windows of differences do not tell noise from the motion
 _FEWEST = 12
 #: the median of the sizes of normal deviates
-_MEDIAN = 0.674490
+MEDIAN = 0.674490
 #: of the greatest position: no noise is taken to be less, as numbers of 16 digits are computed
 LEAST_NOISE = 1e-9
 #: the order of the differences in which a single point far off stands out, and from how many deviations on it may
 _FAR_ORDER, _SUSPECT = 6, 6.0
+#: times the noise: the standard deviation of what the filter gives; and rounds of noise and points far off
+_FILTERED, _MOST_ROUNDS = 1.78, 4
+#: rows on each side of a seam, and by how many standard deviations their cubics may miss each other there
+_BESIDE_SEAM, _STEP = 9, 5.0
 #: in fewer rows, in orders of the differences, these tell the motion itself from noise nowhere
 _ROWS_TO_STAND_OUT = 6
 #: a point far off is so from where either side goes on, by so much of the size that the filter gives it
 _BOTH = 0.35
 #: noise that is less, in standard deviations of rounding, may be rounding alone
 _BEYOND_ROUNDING = 1.3
+#: differences whose size is by so much less than that of the order below are no noise
+_STILL_FALLING = 0.5
 #: decimals that a rounded number has at most
 _DECIMALS = 9
 
@@ -58,6 +64,14 @@ class Samples:
         """The samples less some rows."""
         others = ~rows
         return Samples(self.places[others], self.heights[others], self.digit, self.noise[others], self.suspects[others])
+
+    def begun_at(self, row: int, advance: float) -> Samples:
+        """The samples of the turn that begins at a row: those before it follow, and it closes the turn."""
+        last = len(self.places) - 1
+        rows = np.concatenate([np.arange(row, last), np.arange(row + 1)])
+        behind = np.arange(len(rows)) >= last - row
+        places = self.places[rows] + behind * np.ptp(self.places)
+        return Samples(places, self.heights[rows] + behind * advance, self.digit, self.noise[rows], self.suspects[rows])
 
     @property
     def scatter(self) -> float:
@@ -99,12 +113,16 @@ def samples_of(places: Array, heights: Array, digit: float = 0.0) -> Samples:
         shift = np.abs(np.gradient(heights, x)) * unit_of_rounding(places) / np.sqrt(12.0)
         least = np.hypot(least, np.where(x == places, shift, 0.0))
     rests = _rests_exactly(heights)
-    size = noise_of(x, heights, rests)
+    size = noise_of(x, heights, rests, computed=not unit)
     suspects = _far_points(x, heights, max(size, float(least.min())))
-    if suspects.any():
-        others = ~suspects
-        size = noise_of(x[others], heights[others], rests[others])
+    for _ in range(_MOST_ROUNDS):
+        if not suspects.any():
+            break
+        others, before = ~suspects, suspects
+        size = noise_of(x[others], heights[others], rests[others], computed=not unit)
         suspects = _far_points(x, heights, max(size, float(least.min())))
+        if np.array_equal(suspects, before):
+            break
     return Samples(x, heights, unit, np.where(rests, least, np.maximum(size, least)), suspects)
 
 
@@ -148,30 +166,60 @@ def unit_of_rounding(values: Array) -> float:
     return 0.0
 
 
-def noise_of(places: Array, heights: Array, rests: Mask | None = None) -> float:
+def noise_of(places: Array, heights: Array, rests: Mask | None = None, *, computed: bool = False) -> float:
     """The standard deviation of white noise whose higher differences are as large as those of the heights.
 
     Rows at rest exactly are no sign of noise or of none: a machine may be exact where it rests, and noisy elsewhere.
+    Of heights with all digits, which are `computed`, differences that still fall with the order are the motion's own.
     """
     sizes = []
     for order in _ORDERS:
         if len(places) <= order:
             break
-        differences = normal_differences(places, heights, order)
+        differences = _differences(difference_weights(places, order), heights)
         if rests is not None:
             differences = differences[~sliding_window_view(rests, order + 1).any(axis=1)]
         if len(differences) >= _FEWEST:
-            sizes.append(float(np.median(np.abs(differences))) / _MEDIAN)
+            sizes.append(float(np.median(np.abs(differences))) / MEDIAN)
+    if computed and len(sizes) > 1 and sizes[-1] < _STILL_FALLING * sizes[-2]:
+        return 0.0
     return min(sizes, default=0.0)
 
 
-def normal_differences(places: Array, heights: Array, order: int) -> Array:
-    """Divided differences of an order, divided by what they would be for noise of the size 1."""
+def difference_weights(places: Array, order: int) -> Array:
+    """What divided differences multiply rows of windows by, divided by what they would be for noise of the size 1."""
     k = sliding_window_view(places / np.median(np.diff(places)), order + 1)
     apart = k[:, :, None] - k[:, None, :] + np.eye(order + 1)
     weights = 1.0 / apart.prod(axis=2)
-    values: Array = (weights * sliding_window_view(heights, order + 1)).sum(axis=1)
-    return np.asarray(values / np.sqrt((weights**2).sum(axis=1)))
+    return np.asarray(weights / np.sqrt((weights**2).sum(axis=1))[:, None])
+
+
+def goes_on(places: Array, heights: Array, noise: Array) -> bool:
+    """Whether a motion goes on over the seam of its turn: cubics of the rows on its sides meet there, but for noise.
+
+    Examples
+    --------
+    >>> x = np.linspace(0.0, 360.0, 181)
+    >>> [goes_on(x, y, np.full(181, 1e-9)) for y in (np.sin(np.radians(x)), np.sin(np.radians(x) / 4))]
+    [True, True]
+    >>> goes_on(x, np.append(np.sin(np.radians(x[:-1]) / 4), 0.0), np.full(181, 1e-9))
+    False
+    """
+    ends, variance = [], 0.0
+    for side, seam in ((slice(0, _BESIDE_SEAM), 0), (slice(-1 - _BESIDE_SEAM, -1), -1)):
+        u = (places[side] - places[seam]) / np.ptp(places[side])
+        powers, y, fits = u[:, None] ** np.arange(4), heights[side], []
+        for row in range(len(u)):  # less the row that is farthest off
+            others = np.arange(len(u)) != row
+            inverse = np.linalg.pinv(powers[others])
+            fit = inverse @ y[others]
+            left = y[others] - powers[others] @ fit
+            fits.append((float(left @ left), float(fit[0]), float(inverse[0] @ inverse[0])))
+        squares, end, share = min(fits)
+        ends.append(end)
+        variance += max(squares / (_BESIDE_SEAM - 5), float(noise[side].max()) ** 2) * share
+    # the row that closes the turn is that of its beginning, or is measured
+    return bool(abs(ends[0] + heights[-1] - heights[0] - ends[1]) <= _STEP * np.sqrt(variance))
 
 
 def _rests_exactly(heights: Array) -> Mask:
@@ -185,41 +233,62 @@ def _rests_exactly(heights: Array) -> Mask:
 
 
 def _far_points(places: Array, heights: Array, noise: float) -> Mask:
-    """Points that stand out of the motion by the filter that is matched to one point far off in differences."""
+    """Points that stand out of the motion by the filter that is matched to single points far off in differences.
+
+    Each is taken out with its size by least squares, of all of them together: points close together hide each other.
+    """
     order, count = _FAR_ORDER, len(heights)
-    far, seen = np.zeros((2, count), dtype=bool)
     if count <= _ROWS_TO_STAND_OUT * order:
-        return far
-    pattern = np.array([float(term) for term in np.poly(np.ones(order))])
-    rest = heights.astype(np.float64).copy()
-    for _ in range(count // 20 + 1):
-        differences = normal_differences(places, rest, order) * np.sqrt((pattern**2).sum())
-        filtered = np.convolve(differences, pattern, mode="full") / (pattern**2).sum()
-        if order % 2:
-            filtered = -filtered
-        sizes = np.abs(filtered)
-        sizes[:order], sizes[count - order :] = 0.0, 0.0
-        spread = max(noise * 1.78, float(np.median(sizes)) / _MEDIAN)
-        sizes[seen] = 0.0
-        worst = int(np.argmax(sizes))
-        if sizes[worst] <= _SUSPECT * spread:
+        return np.zeros(count, dtype=bool)
+    over_seam = goes_on(places, heights, np.full(count, noise))
+    beside, turn, advance = 2 * order if over_seam else 0, np.ptp(places), heights[-1] - heights[0]
+    x = np.concatenate([places[-1 - beside : -1] - turn, places, places[1 : beside + 1] + turn])
+    y = np.concatenate([heights[-1 - beside : -1] - advance, heights, heights[1 : beside + 1] + advance])
+    weights = difference_weights(x, order)
+    spread, differences = _spread_back(weights, weights), _differences(weights, y)
+    sizes, seen = np.zeros(len(y)), np.zeros(len(y), dtype=bool)
+    seen[[beside, beside + count - 1]] = True  # the row of the seam, which is there twice
+    taken: list[int] = []
+    for _ in range(2 * (count // 20 + 1)):
+        filtered = _spread_back(weights, (differences - _differences(weights, sizes))[:, None]) / spread
+        least = max(_FILTERED * noise, float(np.median(np.abs(filtered))) / MEDIAN)
+        outside = np.abs(filtered) * ~seen
+        outside[:order], outside[-order:] = 0.0, 0.0
+        worst = int(np.argmax(outside))
+        if outside[worst] <= _SUSPECT * least:
             break
         seen[worst] = True
         # at a joint or a corner a point is where one side goes on; one that is far off is so for both sides
-        sign = np.sign(filtered[worst])
+        sign, rest = np.sign(filtered[worst]), y - sizes
         off = [
-            min(
-                sign * (rest[worst] - _beyond(places[rows], rest[rows], places[worst])) for rows in _beside(worst, wide)
-            )
-            for wide in (4, 7)
+            min(sign * (rest[worst] - _beyond(x[rows], rest[rows], x[worst])) for rows in _beside(worst, wide))
+            for wide in (5, 8)
         ]
-        if max(off) > _BOTH * sizes[worst]:
-            far[worst] = True
-            rest[worst] -= filtered[worst]
+        if max(off) > _BOTH * outside[worst]:
+            taken.append(worst)
             # what it hid beside it is seen now
             seen[max(worst - 2 * order, 0) : worst + 2 * order + 1] = False
-            seen |= far
+            seen[[beside, beside + count - 1, *taken]] = True
+            columns = np.zeros((len(differences), len(taken)))
+            for column, row in enumerate(taken):
+                windows = np.arange(max(row - order, 0), min(row + 1, len(differences)))
+                columns[windows, column] = weights[windows, row - windows]
+            sizes[taken] = np.linalg.lstsq(columns, differences, rcond=None)[0]
+    far = np.zeros(count, dtype=bool)
+    far[[(row - beside) % (count - 1) for row in taken]] = True
     return far
+
+
+def _differences(weights: Array, values: Array) -> Array:
+    return np.asarray((weights * sliding_window_view(values, weights.shape[1])).sum(axis=1))
+
+
+def _spread_back(weights: Array, values: Array) -> Array:
+    """Values of windows, or of each of their rows, weighted and summed for each row."""
+    spread = np.zeros(len(weights) + weights.shape[1] - 1)
+    for i, column in enumerate((weights * values).T):
+        spread[i : i + len(weights)] += column
+    return spread
 
 
 def _beside(row: int, wide: int) -> tuple[slice, slice]:
@@ -227,6 +296,12 @@ def _beside(row: int, wide: int) -> tuple[slice, slice]:
 
 
 def _beyond(places: Array, heights: Array, place: float) -> float:
-    """Where points go on to by their parabola."""
-    step = np.ptp(places)
-    return float(np.polynomial.Polynomial.fit((places - place) / step, heights, 2)(0.0))
+    """Where points go on to by the parabola of all of them but the one that is farthest off the others."""
+    u = (places - place) / np.ptp(places)
+    powers = u[:, None] ** np.arange(3)
+    ends = []
+    for row in range(len(u)):
+        others = np.arange(len(u)) != row
+        fit, squares = np.linalg.lstsq(powers[others], heights[others], rcond=None)[:2]
+        ends.append((float(squares[0]) if squares.size else 0.0, float(fit[0])))
+    return min(ends)[1]

@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from itertools import product
+from itertools import pairwise, product
 from math import log
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import BPoly, BSpline
 
+from optlaws.cycles.old_tables.fitting import DEGREE, CurveFit, End, Joint
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.numbers import Array
 
@@ -31,6 +33,10 @@ _APART = 1e-9
 _INTERVALS = 2048
 #: moves of a chain of which every combination of the best laws is tried
 _MOST_COMBINED = 3
+#: of a velocity: a law rests at an end where it has less
+_AT_REST = 1e-9
+#: parts of each piece of a law, each as a polynomial
+_PIECES_OF_LAW = 4
 #: steps to which places are rounded where the rows allow it, in parts of a turn
 _ROUND = (1.0 / 36.0, 1.0 / 72.0, 1.0 / 360.0, 1.0 / 720.0, 1.0 / 3600.0)
 #: a master that is longer is no turn in radians or turns
@@ -98,6 +104,11 @@ class Chain:
         length = self.places[move + 1] - self.places[move]
         stroke = abs(self.heights[move + 1] - self.heights[move])
         return float(stroke / length**nu * catalogue[self.names[move]].law.peak(nu).value)
+
+    def has_corners(self, move: int) -> bool:
+        """Whether its velocity jumps at an end of a move."""
+        law = catalogue[self.names[move]].law
+        return max(abs(float(law.b(0.0))), abs(float(law.b(1.0)))) > _AT_REST
 
     def uncertainty(self, move: int, nu: int) -> float:
         """The share of a peak by which it may be wrong, one standard deviation."""
@@ -279,6 +290,22 @@ def _woven(names: Sequence[str], rests: Sequence[str]) -> Iterator[str]:
         yield name
         if i < len(rests):
             yield rests[i]
+
+
+def spline_of(chain: Chain, move: int) -> CurveFit:
+    """A spline that is a law of a chain but for rounding."""
+    law = catalogue[chain.names[move]].law
+    (start, stop), (low, high) = chain.places[move : move + 2], chain.heights[move : move + 2]
+    k = np.unique(np.concatenate([np.linspace(*piece, _PIECES_OF_LAW + 1) for piece in pairwise(law.breaks)]))
+    ends = []
+    for places in (k[:-1], np.nextafter(k[1:], 0.0)):
+        scale = (high - low) / (stop - start) ** np.arange(3)
+        ends.append(np.array([law(places, nu) for nu in range(3)]).T * scale)
+    at = start + (stop - start) * k
+    pieces = [BPoly.from_derivatives(at[i : i + 2], [ends[0][i], ends[1][i]]).c[:, 0] for i in range(len(k) - 1)]
+    spline = BSpline(np.repeat(at, DEGREE + 1), low + np.concatenate(pieces), DEGREE)
+    joints = tuple(Joint(float(place), 1) for place in start + (stop - start) * np.array(law.breaks[1:-1]))
+    return CurveFit(spline, np.zeros((len(spline.c), 1)), joints, 0.0, 0, 1, (End(), End()))
 
 
 def criterion(squares: float, free: int, rows: int) -> float:
