@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from itertools import islice
 from pathlib import Path
 from typing import Annotated, Any
 
 import msgspec
 
-from optlaws import MotionLaw
+from optlaws import Axes, MotionLaw
 from optlaws.errors import InputError, located
 from optlaws.explorer.views import old_cam_view
-from optlaws.explorer.views.requests import LawRequest, problem_of
+from optlaws.explorer.views.requests import MOST_LAWS, LawRequest, problem_of
 from optlaws.files import reading
 from optlaws.files.packaged import is_problem, problem_file
 from optlaws.jobs.cycle_entries import CycleProblemFile, motor_of
@@ -44,13 +45,41 @@ def _law(law: dict[str, Any]) -> dict[str, Any]:
 
 
 def _of_stored(data: Any, name: str) -> dict[str, Any]:
-    """The problem of a solution, so that it can be changed; else the law."""
+    """The machine or the cam of results; the problems of solutions, so that they can be changed; else the law."""
+    if isinstance(data, dict) and isinstance(data.get("cam"), dict):
+        return _of_problem_file({**data["cam"], "job": "cam"}, name)
+    if isinstance(data, dict) and {"axes", "cycle", "segments"} & data.keys():
+        return _of_problem_file(_machine(data, name), name)
     with located(name):
-        if isinstance(data, dict) and isinstance(data.get("problem"), dict):
-            return _law({"problem": problem_of(LawRequest(problem=data["problem"])).to_dict()})
+        problems = list(islice(_problems(data), MOST_LAWS))
+        if problems:
+            laws = [{"problem": problem_of(LawRequest(problem=each)).to_dict()} for each in problems]
+            return {"view": "laws", "laws": laws}
         if isinstance(data, dict) and "kind" not in data and "law" in data:
             data = data["law"]
         return _law({"law": MotionLaw.from_dict(data).to_dict(), "title": _stem(name)})
+
+
+def _problems(data: Any) -> Iterator[dict[str, Any]]:
+    """The problems of the solutions in a file, in order, however deep."""
+    if isinstance(data, dict) and isinstance(data.get("problem"), dict):
+        yield data["problem"]
+    elif isinstance(data, dict | list):
+        for part in data.values() if isinstance(data, dict) else data:
+            yield from _problems(part)
+
+
+def _machine(data: dict[str, Any], name: str) -> dict[str, Any]:
+    """The problem file of a stored cycle, plan or machine, or of the axes that `cycle.json` holds."""
+    with located(name):
+        axes = {"axis": data} if {"cycle", "segments"} & data.keys() else data["axes"]
+        if not isinstance(axes, dict) or not all(isinstance(axis, dict) for axis in axes.values()):
+            raise InputError("axes must be a table of cycles by their names")
+        cycles = {axis: entries.get("cycle", entries) for axis, entries in axes.items()}
+        rules = [row.get("rule", row) for row in data.get("interlocks") or () if isinstance(row, dict)]
+        title = str(data.get("about", "Machine")).partition("; ")[0]
+        machine = Axes.from_dict({"axes": cycles, "interlocks": rules})
+        return reading.toml_text(machine.to_toml(title), name)
 
 
 def _of_table(name: str, text: str) -> dict[str, Any]:

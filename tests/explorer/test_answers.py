@@ -14,7 +14,21 @@ import msgspec
 import numpy as np
 import pytest
 
-from optlaws import CamForces, Chebyshev, InputError, Problem, Range, Solution, at_most, between, synthesize
+from optlaws import (
+    Axes,
+    CamForces,
+    Chebyshev,
+    Cycle,
+    InputError,
+    Problem,
+    Range,
+    Return,
+    Rise,
+    Solution,
+    at_most,
+    between,
+    synthesize,
+)
 from tests.documents import ROOT
 from tests.explorer.talk import OPTIMAL
 from tests.internals.cams import cam_files
@@ -34,6 +48,7 @@ from tests.internals.explorer import (
     given_law,
     law_of,
     law_view,
+    machine_view,
     opened_file,
     page,
     problem_of,
@@ -182,6 +197,39 @@ def test_a_solution_is_shown_as_its_problem_and_a_law_as_itself(tmp_path: Path) 
     assert problem_of(law(start(str(file))["laws"][0])) == Problem(order=4, B=1.7)
     file.write_text(json.dumps(STORED["law"]), "utf-8")
     assert law_of(law(start(str(file))["laws"][0])) == given_law(LawRequest(name="cubic"))
+
+
+@pytest.mark.parametrize(
+    ("file", "view"),
+    [
+        ("cam_best_laws/cam", "cam"),
+        ("cycle_press/cycle", "cycle"),
+        ("cycle_belt_lift/cycle", "machine"),
+        ("cycle_rocker/cycle", "machine"),
+        ("cycle_die_and_table/cycle", "axes"),
+        ("cycle_fastest/fastest", "laws"),
+        ("fastest_pick/fastest", "laws"),
+        ("optimal_table/laws", "laws"),
+    ],
+)
+def test_results_are_opened_as_what_they_are_of(file: str, view: str) -> None:
+    found = start(str(ROOT / "results" / f"{file}.json"))
+    assert found["view"] == view
+    if view == "laws":
+        assert all(problem_of(law(entries)) for entries in found["laws"])
+        return
+    views = {"cam": cam_view, "cycle": cycle_view, "machine": machine_view, "axes": axes_view}
+    answer = views[view].answer(CycleRequest(study=found[view], axis=found.get("axis", 0)))
+    assert "refused" not in answer
+    msgspec.json.encode(answer, enc_hook=str)
+
+
+def test_a_stored_cycle_plan_and_machine_are_opened(tmp_path: Path) -> None:
+    cycle = Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm")
+    for value in (cycle, cycle.solve(), Axes({"slide": cycle})):
+        (tmp_path / "stored.json").write_text(value.to_json(), "utf-8")
+        found = start(str(tmp_path / "stored.json"))
+        assert [each["kind"] for each in found["cycle"]["axis"][0]["segment"]] == ["rise", "return"]
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ def explore(file: str | None = None, /, *, port: Whole | None = None, no_browser
     Parameters
     ----------
     file
-        What to show first: a law's name, or the file of a law, a solution, a problem or a cycle.
+        What to show first: a law's name, or the file of a law, a solution, a cycle, a problem or results.
     port
         Port on this machine, 0 for any free one; 8337 unless given, or a free one where that is taken.
     no_browser

@@ -142,7 +142,7 @@ def _rows(laws: Sequence[Plan | OptlawsError]) -> list[dict[str, Any]]:
         {
             "name": name,
             "unit": next(row.unit for row in rows if row is not None),
-            "values": [None if row is None else bounded(row.value) for row in rows],
+            "values": [None if row is None or isinstance(row.value, str) else bounded(row.value) for row in rows],
             "over": [row is not None and row.note == "too weak" for row in rows],
         }
         for name, rows in known.items()
@@ -265,7 +265,7 @@ def _parts(report: MechanismReport, x: Array, entries: Mapping[str, Any]) -> dic
         }
     if mechanism.name == "cam":
         return {"kind": "cam", "dimensions": [], **drawing(CamAtShaft.from_dict(entries).cam)}
-    if mechanism.name in _ROUND:
+    if _ROUND.get(mechanism.name) in entries:  # a stored mechanism has its formulas alone
         size = float(quantity(entries[_ROUND[mechanism.name]], "length", "size", bare=True))
         slide = drawn(MILLI * np.asarray(mechanism.driven_position("slide", x)), 4)
         return {"kind": mechanism.name, "size": MILLI * size, "slide": slide}
