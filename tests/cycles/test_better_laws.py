@@ -1,6 +1,7 @@
 """Better laws in the moves of old cams: against a linear program, with moving ends, at crests, in small tolerances."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -35,6 +36,7 @@ def least_acceleration(old: MotionLaw, share: float, ends: np.ndarray, jerk: flo
         bounds=(None, None), method="highs",
     )  # fmt: skip
     assert answer.status == 0
+    assert answer.fun is not None
     return float(answer.fun)
 
 
@@ -73,7 +75,8 @@ def test_moves_that_run_on_in_constant_velocity_are_bettered() -> None:
 def test_moves_that_turn_without_a_dwell_are_bettered_and_meet() -> None:
     x = np.arange(361.0)
     turn = np.radians(x)
-    old = split_table(x, np.round(10.0 * (1.0 - np.cos(turn)) + 1.5 * (1.0 - np.cos(2.0 * turn)), 3), digit=1e-3)
+    lift = np.round(10.0 * (1.0 - np.cos(turn)) + 1.5 * (1.0 - np.cos(2.0 * turn)), 3)
+    old = split_table(x, lift.tolist(), digit=1e-3)
     new = old.bettered(0.05)
     assert [part.kind for part in new.stretches] == ["rise", "return"]
     assert all(part.solution is not None and part.solution.status.value == "optimal" for part in new.moves)
@@ -88,7 +91,7 @@ def test_moves_that_turn_without_a_dwell_are_bettered_and_meet() -> None:
 def test_a_corner_stays_and_the_move_at_it_is_bettered() -> None:
     u = np.arange(0.0, 360.1, 0.5) % 90.0
     lift = np.where(u <= 60.0, 3.05 * np.sin(np.pi / 2.0 * u / 60.0), np.where(u < 80.0, 3.05 * (80.0 - u) / 20.0, 0.0))
-    old = split_table(0.5 * np.arange(len(u)), lift, tolerance=0.001)
+    old = split_table((0.5 * np.arange(len(u))).tolist(), lift.tolist(), tolerance=0.001)
     new = old.bettered(0.1)
     rises = [(part, was) for part, was in zip(new.moves, old.moves, strict=True) if part.kind == "rise"]
     assert len(rises) == 4
@@ -124,7 +127,8 @@ def test_a_cycle_of_least_acceleration_has_no_better_one_after_its_export(name: 
     made = cycle.export(name, master="360 deg", unit="mm")
     file = tmp_path / f"cam{made.format.extension}"
     file.write_text(made.text, "utf-8")
-    old = read_cycle_table(file, **units_of(made))
+    said: dict[str, Any] = {**units_of(made)}
+    old = read_cycle_table(file, **said)
     new = old.bettered(0.1)
     assert all(part.solution is None for part in new.moves)
     at = np.linspace(0.0, 360.0, 721)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Container, Sequence
 from dataclasses import replace
 from functools import lru_cache
-from math import inf, isfinite
+from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
@@ -36,7 +36,7 @@ _FIRST = 8  # parts between the places with which the search begins
 _APART = 2e-3  # of a move: places that are nearer to a new one give way to it
 _ROUNDS = 13
 _LOOKS = 800  # places at which the difference of two laws is looked at for its extremes
-_STEPS = 5  # of Newton's method towards an extreme
+_FREE = 4  # the order up to which derivatives are left free at one end and given at the other
 _MOST = 0.25  # of a stroke: tolerances beyond it are none
 
 
@@ -160,23 +160,21 @@ def _ends(found: Sequence[Stretch], known: Container[int], number: int, order: i
     """The states at the ends of a move: position and velocity, and as many further derivatives as are known."""
     part = found[number]
     old, length = law_of_move(part), part.stop - part.start
+    same = _SAME * old.constants.B.value
     states = []
     for place, own in enumerate(old.boundary_values(max(order, 2))):
         other = (number - 1 + 2 * place) % len(found)
-        beside, per = found[other], [length**nu / part.stroke for nu in range(order)]
-        same = _SAME * old.constants.B.value
+        beside = found[other]
         if beside.line is not None:
-            goes_on = [0.0, beside.line, *[0.0] * order]
+            goes_on = [0.0, beside.line * length / part.stroke, *[0.0] * order]
         else:
-            law = law_of_move(beside)
-            ratio = beside.stop - beside.start
-            values = law.boundary_values(max(order, 2))[1 - place]
-            goes_on = [value * beside.stroke / ratio**nu for nu, value in enumerate(values)]
+            ratio, size = length / (beside.stop - beside.start), beside.stroke / part.stroke
+            values = law_of_move(beside).boundary_values(max(order, 2))[1 - place]
+            goes_on = [size * ratio**nu * value for nu, value in enumerate(values)]
         velocity = 0.0 if abs(own[1]) <= same else own[1]
-        meets = abs(velocity - goes_on[1] * per[1]) <= same if order > 1 else False
-        settled = beside.line is not None or other in known or other == number
-        further = [goes_on[nu] * per[nu] for nu in range(2, order)] if meets and settled else []
-        states.append((float(place), velocity, *further)[:order])
+        corner = abs(velocity - goes_on[1]) > same
+        free = order <= _FREE and (corner or (beside.line is None and other != number and other not in known))
+        states.append((float(place), velocity, *([] if free else own[2:] if corner else goes_on[2:]))[:order])
     return states[0], states[1]
 
 
@@ -206,17 +204,22 @@ def _least(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) ->
         via(quantity, value, at=state[0]) for state in ends for quantity, value in zip("cj", state[same:], strict=False)
     ]
     conditions = BoundaryConditions(*(state[:same] for state in ends))
+    k = np.linspace(0.0, 0.5, _LOOKS)
+    turned = np.abs(np.asarray(old(k)) + np.asarray(old(1.0 - k)) - 1.0)
+    # the mean of a law and its mirror image is no worse
+    symmetric = conditions == BoundaryConditions.rest(order) and float(turned.max()) <= _BETWEEN * _BETWEEN * share
     basis = Chebyshev(degree + 2 * (order - same))
     places = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, _FIRST) / _FIRST)
     solution = None
     for count in range(_ROUNDS):
+        places = places[places < 0.5] if symmetric else places
         heights, room = np.asarray(old(places)), share * (1.0 - _BETWEEN * 2.0 ** max(count - _SETTLED, 0))
         windows = [
             Window("a", height - room, height + room, k, k)
             for k, height in zip(places.tolist(), heights.tolist(), strict=True)
         ]
         problem = Problem(
-            basis=basis, symmetric=False, boundary=conditions, J=at_most(jerk) if isfinite(jerk) else None,
+            basis=basis, symmetric=symmetric, boundary=conditions, J=at_most(jerk) if isfinite(jerk) else None,
             windows=(*known, *windows),
         )  # fmt: skip
         solution = synthesize(problem, start=solution)
@@ -234,21 +237,14 @@ def _least(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) ->
 
 def _beyond(law: MotionLaw, old: MotionLaw, share: float) -> Array:
     """Where the difference of two laws is greatest, of those places at which it is more than a share."""
-
-    def apart(k: Array, nu: int) -> Array:
-        return np.asarray(law(k, nu=nu)) - np.asarray(old(k, nu=nu))
-
-    k = np.unique([*np.linspace(0.0, 1.0, _LOOKS), *old.breaks])
-    slope = apart(k, 1)
-    turns = np.flatnonzero(slope[:-1] * slope[1:] <= 0.0)
-    low, high = k[turns], k[turns + 1]
-    at = 0.5 * (low + high)
-    for _ in range(_STEPS):
-        bend = apart(at, 2)
-        at = np.clip(at - apart(at, 1) / np.where(bend == 0.0, inf, bend), low, high)
-    at = np.append(at, greatest_difference(law, old, _breaks(law, old))[1])
-    at = np.unique(at[np.abs(apart(at, 0)) > share])
-    return at[np.diff(at, prepend=-1.0) > _SAME]
+    k = np.linspace(0.0, 1.0, _LOOKS)
+    apart = np.abs(np.asarray(law(k)) - np.asarray(old(k)))
+    before, here, after = apart[:-2], apart[1:-1], apart[2:]
+    tops = (here > share) & (here >= before) & (here > after)
+    bend = (before - 2.0 * here + after)[tops]
+    parabolas = k[1:-1][tops] + 0.5 * k[1] * (before - after)[tops] / bend
+    greatest = greatest_difference(law, old, _breaks(law, old))[1]
+    return np.append(parabolas[np.abs(parabolas - greatest) > k[1]], greatest)
 
 
 def gain(new: Stretch, old: Stretch) -> MoveGain:
