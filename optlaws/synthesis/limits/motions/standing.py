@@ -227,13 +227,18 @@ def _least_work(plane: PhasePlane, torque: PhaseTorque) -> float:
     def load(a: Interval, order: int) -> Jet:
         return formula_jet(torque.load, "a", variable(a, order))
 
-    def falling(a: Interval, order: int) -> Jet:
-        at = variable(a, order + 1)
-        rest = formula_jet(torque.square, "a", at).cut(order) - formula_jet(torque.inertia, "a", at).slope() * 0.5
-        return -(-rest).maximum(0.0)
+    def square(a: Interval, order: int) -> Jet:
+        return formula_jet(torque.square, "a", variable(a, order))
+
+    def rest(a: Interval, order: int) -> Jet:
+        return square(a, order) - formula_jet(torque.inertia, "a", variable(a, order + 1)).slope() * 0.5
 
     rubs = extremes(lambda a, order: formula_jet(torque.drag, "a", variable(a, order)), edges).low
-    least, taken_off = (integral(part, edges, share=_ENCLOSED)[0] for part in (load, falling))
+    least = integral(load, edges, share=_ENCLOSED)[0]
+    # where b² takes off what the inertia gives, what is left is rounding, whose sign no cells settle
+    taken_off, most_square = min(extremes(rest, edges).low, 0.0), extremes(square, edges, magnitude=True).peak
+    if taken_off < -_ENCLOSED * most_square:
+        taken_off = integral(lambda a, order: -(-rest(a, order)).maximum(0.0), edges, share=_ENCLOSED)[0]
     parts = [least, rubs if rubs >= 0.0 else rubs * most, taken_off * most * most if taken_off else 0.0]
     if not np.isfinite(parts).all():
         return -inf
