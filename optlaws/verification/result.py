@@ -49,7 +49,8 @@ Rule: TypeAlias = Callable[[Any, str], Iterable[Claim]]
 #: what is proven of an object, by its keys; None of what says nothing of laws, or is proven with the rest
 Proven: TypeAlias = "Rule | Mapping[str, Proven] | None"
 
-_BESIDE = 1e-13  # of the greatest number of a row: what rounding leaves of one that is 0
+#: of the greatest number of a row: what rounding leaves of one that is 0, and of the difference of two
+_NOTHING, _BESIDE = 1e-13, 1e-16
 _STATED_CONSTANT = 1e-11  # of a constant: what one that was computed in doubles may be off
 
 
@@ -179,8 +180,8 @@ def greatest(values: Iterable[Any]) -> float:
 
 def _agree(stated: Any, known: Any, size: float) -> bool:
     if is_number(stated) and is_number(known):
-        allowed = STORED_VALUE * max(abs(stated), abs(known)) + _BESIDE * size
-        return bool(stated == known or abs(stated - known) <= allowed)
+        greater = max(abs(stated), abs(known))
+        return bool(greater <= _NOTHING * size or abs(stated - known) <= STORED_VALUE * greater + _BESIDE * size)
     return bool(stated == known) and type(stated) is type(known)
 
 

@@ -3,6 +3,7 @@
 from optlaws.jobs import cycle as cycle_job
 from optlaws.jobs import cycle_sweeps, job, solutions
 from optlaws.jobs.cam import read as read_of_cam
+from optlaws.jobs.cam import stored as stored_cam
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cycle_entries import read as read_of_cycle_entries
 from optlaws.jobs.cycle_entries import read_given

@@ -16,4 +16,4 @@ from optlaws.verification.machines.output_motion import cycle, followed, of_piec
 from optlaws.verification.machines.residuals import ExactModeResidual
 from optlaws.verification.machines.transfer import Transfer
 from optlaws.verification.reading import built, number, read
-from optlaws.verification.result import near
+from optlaws.verification.result import differences, near

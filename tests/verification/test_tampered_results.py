@@ -19,7 +19,8 @@ from tests.verification.tampering import Data, Path, changed, places, value_at
 FILES = [
     file
     for file in sorted((ROOT / "results").glob("*/*.json"))
-    if any(certificates(json.loads(file.read_text("utf-8"))))
+    # every number of cycles and cams is changed in test_plans.py and test_cams.py
+    if file.stem not in {"cam", "cycle"} and any(certificates(json.loads(file.read_text("utf-8"))))
 ]
 #: how a bound is proven, and where another search begins: what is changed there may prove less, and nothing false
 PROOFS = {"certificate", "power_certificate", "peak_certificate", "proof", "proofs"}
