@@ -118,7 +118,7 @@ def test_a_tolerance_that_is_too_small_is_named_with_one_that_is_enough() -> Non
     assert all(gain.share(2) < 0.0 for gain in enough.gains(old))
 
 
-@pytest.mark.parametrize("name", ["c99", "codesys-xyva", "codesys-cambuilder", "iec-st", "twincat-nc2", "kas", "isg"])
+@pytest.mark.parametrize("name", ["c99", "codesys-xyva", "codesys-cambuilder", "iec-st", "twincat-nc2", "kas"])
 def test_a_cycle_of_least_acceleration_has_no_better_one_after_its_export(name: str, tmp_path: Path) -> None:
     cycle = Cycle(
         [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()],

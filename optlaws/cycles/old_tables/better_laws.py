@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Container, Sequence
 from dataclasses import replace
 from functools import lru_cache
-from math import isfinite
+from math import inf, isfinite, nan
 from typing import NamedTuple
 
 import numpy as np
@@ -73,22 +73,25 @@ class MoveGain(NamedTuple):
     def shares(self, nu: int) -> tuple[float, float]:
         """The least and the greatest relative change of the peak of order nu, 1 to 3, that the table leaves open.
 
+        Where the old peak cannot be known from the table the least one is nan, as the old one may be of any size.
+
         Examples
         --------
         >>> known = PeakInterval(0.9, 1.1), PeakInterval(1.6, 2.5), PeakInterval(2.5, float("inf"))
         >>> gain = MoveGain("rise", 0.0, 120.0, (1.0, 2.0, 3.0), (1.0, 1.5, 3.3), 0.05, known)
-        >>> [round(share, 3) for share in gain.shares(2)], gain.shares(3)[0]
-        ([-0.4, -0.062], -1.0)
+        >>> [round(share, 3) for share in gain.shares(2)], round(gain.shares(3)[1], 3)
+        ([-0.4, -0.062], 0.32)
         """
         low, high = self.intervals[nu - 1] if self.intervals else (0.0, 0.0)
         if not high > 0.0:
             return self.share(nu), self.share(nu)
-        return self.new[nu - 1] / high - 1.0, self.new[nu - 1] / low - 1.0 if low > 0.0 else float("inf")
+        new = self.new[nu - 1]
+        return new / high - 1.0 if isfinite(high) else nan, new / low - 1.0 if low > 0.0 else inf
 
     def share(self, nu: int) -> float:
         """The relative change of the peak of order nu, 1 to 3; nan if the old one is infinite or 0."""
         old, new = self.old[nu - 1], self.new[nu - 1]
-        return new / old - 1.0 if isfinite(old) and old > 0.0 else float("nan")
+        return new / old - 1.0 if isfinite(old) and old > 0.0 else nan
 
 
 def bettered(stretches: Sequence[Stretch], room: float, order: int, degree: int) -> list[Stretch]:

@@ -24,7 +24,6 @@ from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import NO_MARK
 
 _OLD, _NEW, _POINTS = 0, 1, 2  # colours
-_WORTH_NAMING = 2.0  # %, of a gain that is no better known
 
 
 @dataclass(frozen=True)
@@ -38,18 +37,7 @@ class OldTableReport:
     def facts(self) -> Summary:
         """What the file is, how near the laws are to its points, and which moves keep their laws."""
         read = Row(f"{self.table.layout}, {len(self.table.places)} points")
-        return Summary([read, *map(Row, [*self.table.remarks, *self.unchanged, *self.certain])])
-
-    @property
-    def certain(self) -> Iterator[str]:
-        """What of the gains is certain, where the old peaks are not known as well as the new ones."""
-        for part, was in self._pairs:
-            if part.law is not was.law and was.peaks:
-                least, most = (100.0 * share for share in gain(part, was).shares(2))
-                known = was.peaks[1].is_known
-                change = f"changes by {least:+.3g} to {most:+.3g} %" if known else f"changes by {most:+.3g} % at most"
-                if most - least > _WORTH_NAMING:
-                    yield f"{part.kind} from {part.start:g}: the acceleration {change}, as far as the points tell"
+        return Summary([read, *map(Row, [*self.table.remarks, *self.unchanged])])
 
     @property
     def unchanged(self) -> Iterator[str]:
@@ -66,7 +54,10 @@ class OldTableReport:
 
     @kept_property
     def tables(self) -> tuple[ReportTable, ...]:
-        """The stretches with their laws; the peaks of moves with other laws than before, beside those they had."""
+        """The stretches with their laws; the peaks of moves with better laws beside those of the old ones.
+
+        A change is that from the fitted old law; the least and the most are what the points leave open.
+        """
         old, new = self.table, self._gains()
         ends = [f"from, {old.master}", f"to, {old.master}"]
         rows = [
@@ -74,7 +65,7 @@ class OldTableReport:
             for part in old.stretches
         ]
         stretches = ReportTable(["what", *ends, f"by, {old.unit}", "law"], rows)
-        gains = ["what", *ends, "peak", "old", "new", "unit", "change, %", f"off by, {old.unit}"]
+        gains = ["what", *ends, "peak", "old", "new", "unit", "least, %", "most, %", "change, %", f"off by, {old.unit}"]
         return (stretches, ReportTable(gains, new)) if new else (stretches,)
 
     def _gains(self) -> list[list[Any]]:
@@ -82,9 +73,10 @@ class OldTableReport:
         for each in (gain(part, was) for part, was in self._pairs if part.law is not was.law):
             for nu in (1, 2, 3):
                 peaks = [each.old[nu - 1], each.new[nu - 1], self.table.unit_of(nu)]
-                change = bounded(100.0 * each.share(nu))
+                open_to = (100.0 * share for share in each.shares(nu))
+                change = [bounded(share) for share in (*open_to, 100.0 * each.share(nu))]
                 first = [each.kind, each.start, each.stop] if nu == 1 else ["", None, None]
-                rows.append([*first, QUANTITIES[nu], *peaks, change, each.deviation if nu == 1 else None])
+                rows.append([*first, QUANTITIES[nu], *peaks, *change, each.deviation if nu == 1 else None])
         return rows
 
     @property
@@ -124,6 +116,7 @@ class OldTableReport:
                 "law": part.law if part.law is None or isinstance(part.law, str) else part.law.to_dict(),
                 "nearest": part.nearest or None,
                 "distance": part.distance if part.nearest else None,
+                **({"kept": part.kept, "needs": part.needs or None} if part.kept else {}),
             }
             for part in (new or old).stretches
         ]
