@@ -32,6 +32,30 @@ def test_rows_that_begin_anywhere_in_a_turn_go_on_over_its_end() -> None:
         split_table([*DEGREES, *DEGREES], [*lift(DEGREES), *lift(DEGREES)])
 
 
+def test_a_table_that_moves_where_it_begins_is_read_from_a_rest_on() -> None:
+    """The first row is in the midst of the return, which is whole in a cycle that begins in a rest."""
+    x = np.append(DEGREES, 360.0)
+    y = np.round(lift((x + 250.0) % 360.0), 4)
+    table = split_table(x, y, digit=1e-4, begin=131.0)
+    assert [part.law for part in table.stretches] == [None, "cycloidal", None, "cycloidal", None]
+    assert [part.stop for part in table.stretches] == pytest.approx([170.0, 290.0, 310.0, 430.0, 492.0], abs=1e-6)
+    cycle = table.cycle(speed="60 rpm")
+    assert 1e3 * np.asarray(cycle.at_angle((x - 132.0) % 360.0)) == pytest.approx(y, abs=1e-3)
+    with pytest.raises(InputError, match="begin must be from 0 to 360, in the turn, got 400"):
+        split_table(x, y, begin=400.0)
+    assert "it moves where it begins: its moves are whole where begin is 120 deg, in a rest" in str(
+        split_table(x, y, digit=1e-4)
+    )
+
+
+def test_a_turn_of_another_length_is_to_be_said() -> None:
+    table = split_table(2.0 * DEGREES, np.round(lift(DEGREES), 4), digit=1e-4)
+    with pytest.raises(
+        InputError, match=r"go over 716 deg, and a turn of the master is 360: say by turn how long it is"
+    ):
+        table.cycle(speed="60 rpm")
+
+
 def test_a_table_may_begin_below_zero(tmp_path: Path) -> None:
     """Whole numbers from -10000 to 10000 as controllers of electronic cams take them, a sine of 500 over the turn."""
     x = np.linspace(-10000.0, 10000.0, 41)

@@ -182,6 +182,12 @@ def test_the_frame_of_a_table_is_said_in_fields(page: Page, served: Server) -> N
     page.locator("#old-trust", has_text="3 moves").wait_for(timeout=30_000)
     bettered(page)
     assert page.locator("#old-moves").inner_text().count("modified sine") == 3
+    lobes.fill("1")
+    fields["turn"].fill("360 deg")
+    fields["advance"].fill("")
+    fields["rows that count"].fill("")
+    page.get_by_role("textbox", name="begin").fill("165 deg")
+    page.locator("#old-trust", has_text="the cycle begins at 165 deg of its master").wait_for(timeout=30_000)
     study = old_cam_view.example() | {"turn": "360 deg", "rows": 41, "advance": "105 mm", "lobes": 3}
     rows = served.ask("old", {"study": study})["tables"][0]["rows"]
     assert [row[:3] for row in rows] == [["rise", 120.0 * i, 120.0 * (i + 1)] for i in range(3)]

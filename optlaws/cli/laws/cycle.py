@@ -32,7 +32,7 @@ _GROUP = "The table of an old cam"
 _SEGMENTS = "the cycle, whose segments are the stretches of the table"
 _HOW = options(
     "optlaws.cycles.old_tables.table:read_cycle_table",
-    *("unit", "master", "cam", "turn", "advance", "rows", "lobes", "tolerance"),
+    *("unit", "master", "cam", "turn", "advance", "rows", "lobes", "begin", "tolerance"),
     group=_GROUP,
     columns=COLUMNS,
 )

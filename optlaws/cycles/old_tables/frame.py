@@ -92,8 +92,7 @@ def closed(
     """
     length, step = float(np.ptp(places)), float(np.diff(places)[-1])
     if turn is None and angle and abs(length + step - _TURN) <= _WHOLE * _TURN:
-        beside = 2.0 * np.abs(np.diff(heights)[[0, -1]]).max() + _NEAR * np.ptp(heights)
-        turn = _TURN if advance is not None or abs(heights[-1] - heights[0]) <= beside else None
+        turn = _TURN if advance is not None or abs(heights[-1] - heights[0]) <= beside_ends(heights) else None
     if turn is None or abs(turn - length) <= _WHOLE * turn:
         if advance is not None and abs(heights[-1] - heights[0] - advance) > 1e-3 * np.ptp(heights):
             raise InputError(
@@ -107,6 +106,39 @@ def closed(
             "rows how many of them count"
         )
     return np.append(places, places[0] + turn), np.append(heights, heights[0] + (advance or 0.0))
+
+
+def begun(places: Array, heights: Array, begin: float | None, advance: float | None) -> tuple[Array, Array]:
+    """Rows of a whole turn from the one at a place on; those before it follow behind the last one.
+
+    Raises
+    ------
+    InputError
+        If the place is not in the turn.
+
+    Examples
+    --------
+    >>> x, y = begun(np.array([0.0, 90.0, 180.0, 270.0, 360.0]), np.array([1.0, 2.0, 0.0, 0.0, 1.0]), 180.0, None)
+    >>> x.tolist(), y.tolist()
+    ([180.0, 270.0, 360.0, 450.0, 540.0], [0.0, 0.0, 1.0, 2.0, 0.0])
+    """
+    if begin is None:
+        return places, heights
+    length = float(np.ptp(places))
+    if not places[0] <= begin <= places[-1]:
+        raise InputError(f"begin must be from {places[0]:.9g} to {places[-1]:.9g}, in the turn, got {begin:.9g}")
+    first = int(np.searchsorted(places[:-1], begin - _WHOLE * length)) % (len(places) - 1)
+    apart = float(heights[-1] - heights[0])
+    rise = apart if advance is None and abs(apart) > beside_ends(heights) else advance or 0.0
+    return (
+        np.concatenate([places[first:-1], places[: first + 1] + length]),
+        np.concatenate([heights[first:-1], heights[: first + 1] + rise]),
+    )
+
+
+def beside_ends(heights: Array) -> float:
+    """By how much the last position may be off the first one for both to be one."""
+    return float(2.0 * np.abs(np.diff(heights)[[0, -1]]).max() + _NEAR * np.ptp(heights))
 
 
 def whole_turn(turn: float | None, master: str) -> float | None:

@@ -12,13 +12,13 @@ import numpy as np
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.old_tables.better_laws import MoveGain, bettered, gain
-from optlaws.cycles.old_tables.frame import closed, in_order, in_unit, of_lobe, period_of, whole_turn
+from optlaws.cycles.old_tables.frame import begun, closed, in_order, in_unit, of_lobe, period_of, whole_turn
 from optlaws.cycles.old_tables.motion import NOISE_ROOM, motion_of
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.reading import CamPoints, TableUnits, points_in
 from optlaws.cycles.old_tables.samples import samples_of
 from optlaws.cycles.old_tables.stated_functions import stretches_of_pieces
-from optlaws.cycles.old_tables.stretches import Stretch, position, seam_of, stretches_of
+from optlaws.cycles.old_tables.stretches import Stretch, law_of_move, position, seam_of, stretches_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, Rise
 from optlaws.errors import InputError, located
 from optlaws.files import reading
@@ -32,6 +32,8 @@ from optlaws.tolerances import AGREEMENT
 
 _TIMES = {"s", "ms"}
 _MOST_NAMED = 8  # points that are left out
+_MOVING = 1e-3  # of the greatest velocity of a stretch: it begins with one that is more
+_WHOLE_TURN = 1e-6  # of a turn: by how much rows that are one may be longer or shorter
 _STANDARD_LAW_ROOM = 1e-7  # of the stroke of a table with all digits: by how much a standard law may be off its points
 
 
@@ -102,6 +104,12 @@ class OldTable:
         """
         first, last = self.stretches[0], self.stretches[-1]
         turn, times = last.stop - first.start, self.master in _TIMES
+        of_turn = whole_turn(None, self.master)
+        if not self.whole and of_turn and abs(turn - of_turn) > _WHOLE_TURN * of_turn:
+            raise InputError(
+                f"the rows go over {turn:.9g} {self.master}, and a turn of the master is {of_turn:.9g}: say by turn "
+                "how long it is, such as turn='720 deg', or by lobes how often the rows follow each other in it"
+            )
         if speed is None and period is None:
             if times:
                 period = Exact(turn, self.master)
@@ -282,6 +290,13 @@ class OldTable:
         if off > self.room * (1.0 + AGREEMENT):
             away, at = Amount(off, self.unit, 3), Amount(place, self.master)
             remarks.append(sentence("but {} off the point at {}", away, at))
+        rests = [(part.stop - part.start, part) for part in self.stretches if part.law is None]
+        if rests and self._moves_where_it_begins:
+            _, rest = max(rests, key=lambda pair: pair[0])
+            middle = Amount(0.5 * (rest.start + rest.stop), self.master, 3)
+            remarks.append(
+                sentence("it moves where it begins: its moves are whole where begin is {}, in a rest", middle)
+            )
         if self.stretches[0].start:
             remarks.append(
                 sentence("the cycle begins at {} of its master", Amount(self.stretches[0].start, self.master))
@@ -296,6 +311,14 @@ class OldTable:
         if self.seam:
             remarks.append(sentence("the last position is {} from the first one", Amount(self.seam, self.unit, 3)))
         return tuple(remarks)
+
+    @property
+    def _moves_where_it_begins(self) -> bool:
+        """Whether its first stretch begins with a velocity."""
+        if self.stretches[0].law is None:
+            return False
+        law = law_of_move(self.stretches[0])
+        return abs(float(law.b(0.0))) > _MOVING * law.peak(1).value
 
     def peak_in_words(self, nu: int) -> str:
         """Between which values the greatest derivative of order nu is, by the points."""
@@ -337,6 +360,7 @@ def read_cycle_table(
     advance: Quantity | None = None,
     rows: int | None = None,
     lobes: int = 1,
+    begin: Quantity | None = None,
 ) -> OldTable:
     r"""A table of a whole cycle from a file, divided into dwells, rises and returns.
 
@@ -368,6 +392,8 @@ def read_cycle_table(
         How many rows count, from the first one on, where spare ones follow.
     lobes
         How often the rows follow each other in a turn, where they are one lobe of several; each advances by as much.
+    begin
+        Where the cycle begins on the master, such as "220 deg" in a rest of a table that moves where it begins.
 
     Raises
     ------
@@ -390,7 +416,7 @@ def read_cycle_table(
     path = Path(file)
     content = reading.text(path, LARGEST_TABLE, legacy=True)
     points = points_in(content, path, columns, unit=unit, master=master, cam=cam)
-    return table_of(points, path, tolerance, turn=turn, advance=advance, rows=rows, lobes=lobes)
+    return table_of(points, path, tolerance, turn=turn, advance=advance, rows=rows, lobes=lobes, begin=begin)
 
 
 def table_of(
@@ -402,6 +428,7 @@ def table_of(
     advance: Quantity | None = None,
     rows: int | None = None,
     lobes: int = 1,
+    begin: Quantity | None = None,
 ) -> OldTable:
     """The table of points with units, divided as by `read_cycle_table`; errors call the table `path`."""
     units, fewest = points.units, 2 if points.pieces else FEWEST_POINTS
@@ -411,14 +438,19 @@ def table_of(
         places, heights = points.places[:rows], points.heights[:rows]
         length = in_unit(turn, units.master, ("angle", "time", "length"), "turn")
         step = in_unit(advance, units.slave, ("length", "angle"), "advance")
+        first = in_unit(begin, units.master, ("angle", "time", "length"), "begin")
         if points.pieces:
+            if first is not None:
+                raise InputError(
+                    "begin is of a table of positions alone: leave it out, what runs between these is known"
+                )
             pieces = points.pieces[: len(places) - 1]
             table = _of_pieces(pieces, places, heights, units, length, step, tolerance, lobes)
         else:
             places, heights = in_order(places, heights, whole_turn(length, units.master), points.lines[:rows])
             table = split_table(
-                places, heights, turn=length, advance=step, lobes=lobes, tolerance=tolerance, unit=units.slave,
-                master=units.master, digit=points.digit,
+                places, heights, turn=length, advance=step, lobes=lobes, begin=first, tolerance=tolerance,
+                unit=units.slave, master=units.master, digit=points.digit,
             )  # fmt: skip
     return replace(table, layout=points.layout, rate=units.rate)
 
@@ -481,6 +513,7 @@ def split_table(
     turn: float | None = None,
     advance: float | None = None,
     lobes: int = 1,
+    begin: float | None = None,
 ) -> OldTable:
     """The dwells, rises and returns of a table of a whole cycle.
 
@@ -499,6 +532,8 @@ def split_table(
         or it is none of 360 deg; what the rows have unless given.
     lobes
         How often the points follow each other in a turn, where they are one lobe of several.
+    begin
+        Where the cycle begins on the master; at the first point unless given.
 
     Raises
     ------
@@ -531,6 +566,7 @@ def split_table(
     of_one = of_lobe(lobes, turn, advance, master)
     ordered = in_order(places, heights, whole_turn(turn, master))
     places, heights = closed(*ordered, *of_one, angle=master == "deg" and lobes == 1)
+    places, heights = begun(places, heights, begin, of_one[1])
     stroke = float(np.ptp(heights))
     if stroke == 0.0:
         raise InputError("the table never moves: all its positions are the same")

@@ -51,6 +51,7 @@ class OldCamEntries(Declared, title="the table of an old cam"):
     advance: str | None = entry(Text(), "What the position advances by in a turn.", default=None)
     rows: int | None = entry(Whole(2), "How many rows count.", default=None)
     lobes: int = entry(Whole(1), "How often the rows follow each other in a turn.", default=1)
+    begin: str | None = entry(Text(), "Where the cycle begins on the master.", default=None)
     speed: str | None = entry(Text(), "That of the master.", default=None)
 
 
@@ -64,7 +65,7 @@ def _table(entries: OldCamEntries) -> OldTable:
     columns = None if entries.columns is None else [name.strip() for name in entries.columns.split(",")]
     path = Path(entries.file)
     points = points_in(entries.text, path, columns, unit=entries.unit, master=entries.master, cam=entries.cam)
-    frame = {name: getattr(entries, name) for name in ("turn", "advance", "rows", "lobes")}
+    frame = {name: getattr(entries, name) for name in ("turn", "advance", "rows", "lobes", "begin")}
     return table_of(points, path, entries.room, **frame)
 
 

@@ -21,6 +21,7 @@ const FIELDS = {
   advance: ["advance", "what the rows have, or 360 deg"],
   rows: ["rows that count", "all", whole],
   lobes: ["lobes of a turn", "1", whole],
+  begin: ["begin", "at the first row, or 220 deg"],
   speed: ["speed", "what the file says, or 200 rpm"],
 };
 const FILES = [
