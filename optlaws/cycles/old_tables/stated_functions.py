@@ -59,11 +59,11 @@ def stretches_of_pieces(pieces: Sequence[CurvePiece], room: float = 0.0) -> tupl
             moves[-1].append(after)
         else:
             moves.append([after])
-    found = [part for move in moves for part in _stretches(move, APART * size, max(room, APART * size))]
+    divided = [part for move in moves for part in _stretches(move, APART * size, max(room, APART * size))]
     known = list[float]()
-    heights = [_level(height, known, APART * size) for height in (*(part.low for part in found), found[-1].high)]
+    heights = [_level(height, known, APART * size) for height in (*(part.low for part in divided), divided[-1].high)]
     stretches = list[Stretch]()
-    for part, low, high in zip(found, heights, heights[1:], strict=False):
+    for part, low, high in zip(divided, heights, heights[1:], strict=False):
         if part.law is None and stretches and stretches[-1].law is None:
             stretches[-1] = replace(stretches[-1], stop=part.stop)
         else:
