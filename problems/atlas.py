@@ -115,7 +115,7 @@ def _curves(axes: Axes, points: Sequence[Any]) -> None:
         axes.plot([point.inputs["B"] for point in curve], values, label=f"l = {order}", **style)
     limits = _limits(points)
     if limits:
-        axes.plot(list(limits), list(limits.values()), color=GREY, linewidth=1.0, label="limit of all laws")
+        axes.plot(list(limits), list(limits.values()), color=GREY, linewidth=1.0, label="best possible")
 
 
 def _limits(points: Sequence[Any]) -> dict[float, float]:

@@ -278,7 +278,7 @@ def _limit_curves(axes: Axes, picture: Picture, fronts: Sequence[Front], x: Ends
         limits = [limit(picture.over[1], float(B), order=stated.order) for B in values]
         if limits in drawn:
             continue
-        label = "limit of all laws" if not drawn else f"the same of order {stated.order}"
+        label = "best possible" if not drawn else f"the same of order {stated.order}"
         stroke = ("-", "-.")[min(len(drawn), 1)]
         axes.plot(values, np.array(limits), label=label, color=GREY, linewidth=1.2, linestyle=stroke)
         drawn.append(limits)
@@ -291,7 +291,7 @@ def _corners(axes: Axes, picture: Picture, fronts: Sequence[Front], colours: Seq
         stated = _freed(front[0].problem, picture.over[0])
         velocity = stated.B if isinstance(stated.B, float) else None
         limits = [limit(name, velocity, order=stated.order) for name in picture.over]
-        label = f"limit of each constant alone, {curve.label}"
+        label = f"best possible of each, {curve.label}"
         for line, value in zip((axes.axvline, axes.axhline), limits, strict=True):
             draw_line: Callable[..., Any] = line
             draw_line(value, label=label, **style)

@@ -307,7 +307,7 @@ def _family(axes: Axes) -> None:
 def _limits(axes: Axes, spec: Table) -> None:
     values = np.linspace(spec.figure.start, spec.figure.stop, 200)
     beyond = values[values >= 2.0]
-    labels = "limit of all laws from rest to rest", "the same with b ≥ 0"
+    labels = "best possible from rest to rest", "the same with b ≥ 0"
     for B, monotone, stroke, label in ((values, False, "-", labels[0]), (beyond, True, "-.", labels[1])):
         limits = [acceleration_limit(velocity, monotone=monotone) for velocity in B]
         style: dict[str, Any] = {"color": GREY, "linewidth": 1.2, "linestyle": stroke}

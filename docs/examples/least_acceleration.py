@@ -1,7 +1,7 @@
 """The law of least acceleration
 =============================
 
-At a given peak velocity, with the bounds of its problem and the limit of all laws of its order.
+At a given peak velocity, with the bounds of its problem and the best possible of its order.
 """
 
 from optlaws import Chebyshev, Problem, synthesize

@@ -1,7 +1,7 @@
 """A law of pieces
 ===============
 
-Z in B-splines: polynomials on eight pieces. The peak acceleration is 10 % above the limit of all laws of its order.
+Z in B-splines: polynomials on eight pieces. The peak acceleration is 10 % above the best possible of its order.
 """
 
 from optlaws import BSplines, Problem, synthesize

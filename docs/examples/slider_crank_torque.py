@@ -18,7 +18,7 @@ for name, law in laws.items():
     a, b, c = np.pi * law.a(k), np.pi / 0.3 * law.b(k), np.pi / 0.3**2 * law.c(k)
     plt.plot(np.degrees(a), press.torque(a, b, c), label=f"{name}: {rms(moved.torque).value(law) * moved.unit:.3f} N m")
 limit = drive_limit(moved.torque, "rms torque").value * moved.unit
-plt.plot([], [], " ", label=f"limit of all laws: {limit:.3f} N m")
+plt.plot([], [], " ", label=f"best possible: {limit:.3f} N m")
 plt.xticks(range(0, 181, 30))
 plt.xlabel("angle of the crank (deg)")
 plt.ylabel("torque at the crank (N m)")

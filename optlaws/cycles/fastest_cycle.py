@@ -215,7 +215,7 @@ class FastestCycle(Answers, Declared, title="a fastest cycle"):
         >>> from optlaws import Cycle, Return, Rise
         >>> slide = Cycle([Rise("35 mm", "180 deg"), Return()], speed="60 rpm", limits={"acceleration": "20 m/s^2"})
         >>> [row.name for row in slide.fastest().summary()][:4]
-        ['status', 'greatest speed', 'least period', 'proven: none below']
+        ['status', 'greatest speed', 'least period', 'lower bound (proven)']
         """
         from optlaws.cycles.report import FastestReport
 
@@ -225,7 +225,7 @@ class FastestCycle(Answers, Declared, title="a fastest cycle"):
         """The speed and the period, with what is proven of them, and what binds."""
         rows = [Row("greatest speed", self.rpm, "rpm"), Row("least period", self.period, "s")]
         if self.lower_bound is not None:
-            rows.append(Row("proven: none below", self.lower_bound, "s"))
+            rows.append(Row("lower bound (proven)", self.lower_bound, "s"))
         rows.append(best_possible_row(self.best_possible, self.period))
         return Summary([*rows, *(Row("binds", text) for text in self.binding)])
 

@@ -186,7 +186,7 @@ class TransitionCam(MovePlan, Declared, title="a transition cam"):
         rows = [Row("master", self.master, "deg"), Row("time", self.duration, "s"), Row("status", self.status.value)]
         if self.least is not None:
             binding = ", ".join(self.least.binding)
-            rows.append(Row("proven: none below", self.least.none_below, "s", note=f"{binding} binds"))
+            rows.append(Row("lower bound (proven)", self.least.none_below, "s", note=f"{binding} binds"))
             rows.append(best_possible_row(self.least.best_possible, self.duration))
         elif self.solution.best_possible is None:
             rows.append(best_possible_row(None, self.duration))

@@ -320,7 +320,7 @@ class Export(TextFile):
         >>> from optlaws import smoothstep
         >>> export = smoothstep(3).export("codesys-xy", stroke="35 mm", master="120 deg", duration="0.1 s", points=9)
         >>> [artist.get_label() for artist in export.plot()[:2]]
-        ['as designed', 'as run']
+        ['as designed', 'as executed']
         """
         from optlaws.plots.moves import draw_export
 

@@ -226,8 +226,8 @@ def _in_words(front: TimeFront) -> str:
     saved = 1.0 - later.value / first.value if first.value else 0.0
     more = later.duration / first.duration - 1.0
     proven = "Every point is proven" if front.status is Status.OPTIMAL else "The bounds hold for all laws of the space"
-    share = f"{_PERCENT * more:.0f} % more time than the least saves {_PERCENT * saved:.0f} % of it"
-    return f"The least {front.minimise}: {share}. {proven}."
+    share = f"falls by {_PERCENT * saved:.0f} % in a time {_PERCENT * more:.0f} % longer than the least"
+    return f"The least {front.minimise} {share}. {proven}."
 
 
 def _points(front: TimeFront) -> list[list[Cell]]:

@@ -193,8 +193,8 @@ class LawExport:
         >>> basis = optlaws.Pieces(8, degree=7, continuity=3)
         >>> solution = optlaws.synthesize(optlaws.Problem(B=1.859, order=4, basis=basis))
         >>> program = solution.export("codesys-cambuilder", stroke="35 mm", duration="0.1 s", master="120 deg")
-        >>> [line.strip() for line in program.text.splitlines() if "none below" in line]
-        ['law: least C = 4.59646..., none below 4.59646... in its space; status optimal']
+        >>> [line.strip() for line in program.text.splitlines() if "lower bound" in line]
+        ['law: least C = 4.59646..., lower bound 4.59646... in its space; status optimal']
         """
         from optlaws.exports.export import export_law
 

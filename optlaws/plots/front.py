@@ -78,7 +78,7 @@ def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) ->
 def draw_advice(advice: Advice, axes: Axes | None = None, **style: Any) -> list[Artist]:
     """Draw what is minimised over the second measure: the front, what no law is below, all laws; return the artists.
 
-    Laws that take more of a third measure than the usual one, so that the bound is not of them, are hollow.
+    Laws that have more of a third measure than the usual one, to which the bound does not apply, have open markers.
     """
     from optlaws.cycles.advising.advice import more_than_usual
 
@@ -91,22 +91,22 @@ def draw_advice(advice: Advice, axes: Axes | None = None, **style: Any) -> list[
     known_x = [value for value in x.values() if np.isfinite(value) and value > 0.0]
     far = max(known_x) > _WIDE * min(known_x)
     axes.set(xscale="log" if far else "linear", xlabel=units[advice.second], ylabel=units[advice.minimise])
-    hollow: dict[str, Any] = {"linewidth": 0.0, "markersize": 5.0, "fillstyle": "none"}
+    opened: dict[str, Any] = {"linewidth": 0.0, "markersize": 5.0, "fillstyle": "none"}
     for kind, colour, marker in (("given", GREY, "D"), ("standard", GREY, "s"), ("optimal", BLUES[3], "o")):
         names = [law.name for law in advice if law.kind == kind and np.isfinite(x[law.name] * y[law.name])]
         full = [name for name in names if not more[name]]
         known: Any = {"color": colour, "marker": marker, "linewidth": 0.0, "markersize": 5.0, "label": f"{kind} laws"}
         artists += axes.plot([x[name] for name in full], [y[name] for name in full], **known) if names else []
         beyond = [name for name in names if more[name]]
-        axes.plot([x[name] for name in beyond], [y[name] for name in beyond], color=colour, marker=marker, **hollow)
+        axes.plot([x[name] for name in beyond], [y[name] for name in beyond], color=colour, marker=marker, **opened)
         for name in (name for name in names if name != chosen and "," not in name):
             name_point(axes, name, (x[name], y[name]), (6.0, -3.0), color=colour, fontsize=7.5)
     if usual is not None and any(more.values()):
         of = [each for each in advice.guarded if any(each in exceeded for exceeded in more.values())]
-        label = f"hollow: more {listed(of, 'or')} than {usual.name}"
-        artists += axes.plot([], [], color=GREY, marker="s", label=label, **hollow)
+        label = f"open markers: more {listed(of, 'or')} than {usual.name}"
+        artists += axes.plot([], [], color=GREY, marker="s", label=label, **opened)
     ring: Any = {"color": WARM, "marker": "o", "markersize": 11.0, "fillstyle": "none", "linewidth": 0.0, "zorder": 5}
-    artists += axes.plot(x[chosen], y[chosen], label="law to take", **ring)
+    artists += axes.plot(x[chosen], y[chosen], label="recommended law", **ring)
     name_point(axes, f"{y[chosen]:.4g}", (x[chosen], y[chosen]), (-8.0, -14.0))
     # room for the names at the right
     axes.margins(x=0.06)

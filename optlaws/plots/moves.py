@@ -59,7 +59,7 @@ def strokes_figure(moves: Sequence[FastestMove], title: str) -> Figure:
         figure = empty_figure(7.2, 4.6)
         axes = figure.subplots()
         proven = all(move.status is Status.OPTIMAL for move in ordered)
-        label = "least time, proven" if proven else "least time that was found"
+        label = "least time, proven" if proven else "least time found, not proven"
         axes.plot(strokes, times, color=BLUES[-1], marker="o", markersize=3.0, label=label)
         if not np.isnan(limits).all():
             axes.plot(strokes, limits, color=GREY, linewidth=1.0, label="best possible")
@@ -139,7 +139,7 @@ def draw_export(export: Export, axes: Any = None, **style: Any) -> list[Artist]:
     # a piece with its ends as seen from inside, so that a jump is upright
     shares = np.linspace(INSIDE_PIECE, 1.0 - INSIDE_PIECE, _INSIDE_RUN)
     places = (joints[:-1, None] + np.diff(joints)[:, None] * shares).ravel()
-    looks: Any = (_DESIGNED, {"color": BLUES[3], "label": "as run"} | style)
+    looks: Any = (_DESIGNED, {"color": BLUES[3], "label": "as executed"} | style)
     artists: list[Artist] = []
     for nu, panel in enumerate(panels):
         for values, look in zip((motion(places, nu), run(places, nu)), looks, strict=True):

@@ -244,7 +244,9 @@ class Solution(LawExport, JsonText):
     def _exported(self) -> tuple[MotionLaw, tuple[str, ...]]:
         least = f"least {self.problem.minimise} = {self.objective:.9g}"
         bound = (
-            "no bound above 0 is known" if self._is_without_bound else f"none below {self.lower_bound:.9g} in its space"
+            "no bound above 0 is known"
+            if self._is_without_bound
+            else f"lower bound {self.lower_bound:.9g} in its space"
         )
         return self.law, (f"law: {least}, {bound}; status {self.status.value}",)
 

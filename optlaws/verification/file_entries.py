@@ -111,7 +111,7 @@ def entries(data: Data) -> dict[str, FileEntry]:
     ['rows[0].solution']
     >>> entries({"rows": [{"solution": {"law": {}, "constants": {}}}, {"best_possible": 4.0}]})
     Traceback (most recent call last):
-    optlaws.errors.InputError: ...rows[1].best_possible claims something without a certificate: 4.0
+    optlaws.errors.InputError: ...rows[1].best_possible states 4.0 without a certificate
     """
     return dict(_walk(data, "", FileEntry({})))
 
@@ -204,7 +204,7 @@ def _stated(data: Data, title: str, path: str) -> dict[str, Any]:
 def _walk(data: object, path: str, around: FileEntry) -> Iterator[tuple[str, FileEntry]]:
     if not isinstance(data, Mapping | list):
         if data is not None:
-            raise InputError(f"{NO_FILE}: {path or 'it'} claims something without a certificate: {data!r:.40}")
+            raise InputError(f"{NO_FILE}: {path or 'it'} states {data!r:.40} without a certificate")
         return
     entries = of_known_format(data, path or "the file") if isinstance(data, Mapping) else {}
     if is_entry(entries):
@@ -310,5 +310,5 @@ def _of_velocity(data: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
         raise InputError(f"{path}.B must be a number, got {printed!r:.40}") from None
     inside = list(_members({key: value for key, value in data.items() if key != "B"}, path, FileEntry({}, B=B)))
     if not any("problem" in entry.data for _, entry in inside):
-        raise InputError(f"{NO_FILE}: {path}.B claims something without a certificate: {B!r}")
+        raise InputError(f"{NO_FILE}: {path}.B states {B!r} without a certificate")
     yield from inside

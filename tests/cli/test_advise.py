@@ -38,7 +38,7 @@ def test_a_move_is_advised_as_the_library_does(capsys: Capture, tmp_path: Path) 
     assert "residual acceleration, m/s²" in lines[0]
     assert [line.split("  ")[0] for line in lines[1 : len(known) + 1]] == [law.name for law in known]
     facts = [(name, value.strip()) for name, _, value in (line.partition("  ") for line in lines[len(known) + 1 :])]
-    assert facts[0] == ("take", known.recommendation.law.name)
+    assert facts[0] == ("recommended", known.recommendation.law.name)
     assert [value for name, value in facts if name == "why"] == list(known.recommendation.sentences)
     assert facts[-1] == ("rule", known.recommendation.rule)
     assert picture.read_text("utf-8").lstrip().startswith("<?xml")

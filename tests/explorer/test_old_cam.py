@@ -160,7 +160,7 @@ def test_a_dropped_table_is_shown_and_bettered_within_a_dragged_band(page: Page,
     page.get_by_role("textbox", name="speed").fill("300 rpm")
     page.get_by_role("button", name="Export").click()
     bettered(page)
-    assert "as run" in page.locator("dialog[open]").inner_text()
+    assert "as executed" in page.locator("dialog[open]").inner_text()
 
 
 def test_the_frame_of_a_table_is_said_in_fields(page: Page, served: Server) -> None:

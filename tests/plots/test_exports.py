@@ -11,6 +11,6 @@ def test_the_designed_motion_is_seen_where_the_run_lies_on_it() -> None:
     export.plot(panels)
     for panel in panels:
         designed, run = panel.lines
-        assert (designed.get_label(), run.get_label()) == ("as designed", "as run")
+        assert (designed.get_label(), run.get_label()) == ("as designed", "as executed")
         assert designed.get_linewidth() > 2.0 * run.get_linewidth()
         assert designed.get_zorder() <= run.get_zorder()

@@ -24,7 +24,7 @@ def test_points_can_be_solved_again(place: int) -> None:
 @pytest.mark.parametrize("name", ["c-over-b-by-order", "d-over-c"])
 def test_the_figures_name_what_stands_beside(name: str) -> None:
     text = (RESULTS / f"{name}.svg").read_text("utf-8")
-    limit = "limit of all laws" if name == "c-over-b-by-order" else "limit of each constant alone"
+    limit = "best possible" if name == "c-over-b-by-order" else "best possible of each"
     assert all(label in text for label in ("Savin", "smoothsteps", "modified sine", limit))
     assert f"{name}.svg" in (RESULTS / "fronts.md").read_text("utf-8")
 

@@ -117,5 +117,5 @@ def test_the_table_has_what_each_row_promises() -> None:
 
 def test_the_figure_names_its_curves() -> None:
     text = (RESULTS / "figure.svg").read_text("utf-8")
-    for label in ("peak velocity B", "Savin", "limit of all laws"):
+    for label in ("peak velocity B", "Savin", "best possible"):
         assert label in text

@@ -60,9 +60,9 @@ class Advice:
     front
         Laws that exchange one for the other, each with its proof; empty where it was left out.
     recommendation
-        The law to take, by which rule, and what it gains and costs in two sentences.
+        The recommended law, by which rule, and what it gains and costs in two sentences.
     guarded
-        Of what the law to take, and those of the front, take no more than the usual one: it has no limit of its own.
+        Of what the recommended law and those of the front have no more than the usual one: it has no limit of its own.
     errors
         Why there is no law of a name.
 
@@ -134,7 +134,7 @@ class Advice:
         ['take', 'velocity', 'acceleration']
         """
         chosen = self.recommendation
-        rows = [Row("take", chosen.law.name)]
+        rows = [Row("recommended", chosen.law.name)]
         for measure in self.measures:
             change = chosen.changes.get(measure.name)
             against = "" if chosen.usual is None or chosen.usual is chosen.law else f" of {chosen.usual.name}"
@@ -223,7 +223,7 @@ class Advice:
         from optlaws.shown.showing import facts, page, table
 
         chosen = self.recommendation
-        return page("Advice", facts({"take": str(chosen), "rule": chosen.rule}), table(self.headings, self.rows))
+        return page("Advice", facts({"recommended": str(chosen), "rule": chosen.rule}), table(self.headings, self.rows))
 
 
 def _law_data(law: AdvisedLaw) -> dict[str, Any]:

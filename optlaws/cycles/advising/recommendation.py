@@ -17,7 +17,7 @@ _TELLING = 1e-3  # of a value: a difference or a rest of a limit that is worth a
 
 @dataclass(frozen=True)
 class Recommendation:
-    """The law to take, and why.
+    """The recommended law, and why.
 
     Attributes
     ----------
@@ -143,22 +143,21 @@ class _Words:
         proof = None if candidates.proven is None else candidates.proven.proof
         bound = None if proof is None else proof.lower_bound
         if proof is None or not bound or bound <= 0.0:
-            return f"How much less {minimise} another law could have is not proven"
+            return f"No lower bound of the {minimise} is known"
         bettered = "" if usual is None else f"least {minimise}, no worse than {usual.name}"
         if candidates.guarding and isinstance(candidates.errors.get(bettered), InfeasibleProblem):
-            return f"That none of the {proof.space} takes {self.no_more} is proven"
+            return f"Proven: none of the {proof.space} has {self.no_more}"
         above = self.law.values[minimise] / bound - 1.0
         near = f" ({_percent(above / (1.0 + above))} less)" if above > _TELLING * EQUALLY_GOOD else ""
         least = sentence("{}{}", self._with_unit(minimise, bound), near)
         if proof.status is Status.OPTIMAL:
             with_no_more = f" with {self.no_more}" if self.no_more else ""
-            proven = sentence("None of the {}{} has less than {}", proof.space, with_no_more, least)
+            proven = sentence("Proven: {}{} have at least {}", proof.space, with_no_more, least)
         else:
-            proven = sentence("That none has less than {}, is proven", least)
+            proven = sentence("Proven: all laws have at least {}", least)
         if proof.best_possible:
-            proven = sentence(
-                "{}, and none of any degree less than {}", proven, self._with_unit(minimise, proof.best_possible)
-            )
+            best = self._with_unit(minimise, proof.best_possible)
+            proven = sentence("{}, those of any degree at least {}", proven, best)
         return proven
 
     @property
@@ -170,7 +169,7 @@ class _Words:
         changes = [*self._changes(usual, "more", 1.0), *self._changes(usual, "less", -1.0)]
         if not changes:
             return f"nothing else differs by 1 % from {usual.name}"
-        return f"compared with {usual.name}, the law to take needs {listed(changes)}"
+        return f"compared with {usual.name}, the recommended law has {listed(changes)}"
 
     @property
     def _exchange(self) -> str:

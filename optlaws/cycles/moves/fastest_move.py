@@ -262,8 +262,7 @@ class FastestMove(LawExport, MovePlan, JsonText):  # type: ignore[misc] # its ex
         """How far the least time is proven, and the statement on all laws of the space that is."""
         word = "proven" if self.status is Status.OPTIMAL else "a local optimum; proven"
         space = self.least.move.problem
-        laws = f"the laws of order {space.order} in {space.basis!r}"
-        return f"{word}: none of {laws} takes {self.none_below:.9g} s or less"
+        return f"{word}: laws of order {space.order} in {space.basis!r} take more than {self.none_below:.9g} s"
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict in SI units: law and proofs in one, which `optlaws verify` checks."""

@@ -84,7 +84,7 @@ export class Exporting {
     this.#answer = answer;
     this.#save.disabled = false;
     this.#save.textContent = `Save ${answer.name}`;
-    const head = html("tr", {}, ...["", "as run", "the law", "run / law"].map((text, i) => html("th", { scope: "col", class: i ? "number" : null, text })));
+    const head = html("tr", {}, ...["", "as executed", "as designed", "ratio"].map((text, i) => html("th", { scope: "col", class: i ? "number" : null, text })));
     const rows = answer.rows.map(([name, ...cells]) => html("tr", {}, html("th", { scope: "row", text: name }), ...cells.map((text) => html("td", { class: "number", text }))));
     this.#result.replaceChildren(
       html("p", { text: answer.words }), ...answer.notes.map((text) => html("p", { class: "quiet", text })),

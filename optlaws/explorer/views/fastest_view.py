@@ -165,7 +165,7 @@ def _of_move(move: MoveEntries, entries: str) -> _Search:
         solution, point = front.solutions[1], front[1]
         rows = [Row(f"least {minimise} in this time", point.value, front.unit)]
         if bounded(point.lower_bound) is not None:
-            rows.append(Row("none below", point.lower_bound, front.unit))
+            rows.append(Row("lower bound", point.lower_bound, front.unit))
         trust = verdict(solution.status, gap_text(solution.gap), [*fact_sentences(rows), *facts])
         return MoveReport(least, point.law, point.duration, drive, start), trust, [solution]
 

@@ -129,9 +129,12 @@ def beyond(name: str, least: str, limits: Range) -> str:
     """The text of an error: a range ends where a constant begins.
 
     >>> beyond("residual", "0", at_most(0.0))
-    'residual must be able to exceed 0, got 0.0 at most: give a greater bound, or minimise it'
+    'residual of at most 0.0 excludes every law: it must be above 0; give a greater bound, or minimise it'
     """
-    return f"{name} must be able to exceed {least}, got {limits.high!r} at most: give a greater bound, or minimise it"
+    return (
+        f"{name} of at most {limits.high!r} excludes every law: it must be above {least}; give a greater bound, or "
+        "minimise it"
+    )
 
 
 class Bounds(Mapping[Functional, Range]):

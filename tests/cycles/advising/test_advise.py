@@ -113,7 +113,7 @@ def test_the_rule_is_kept_and_its_words_are_the_rows(rise: Advice) -> None:
         f"{chosen.law.values['acceleration']:.5g} m/s², {100.0 * gain:.3g} % less than that of modified sine" in first
     )
     bound = rise[BETTERED].proof.lower_bound  # type: ignore[union-attr]
-    assert f"less than {bound:.5g} m/s²" in second
+    assert f"at least {bound:.5g} m/s²" in second
     assert "58 % less residual acceleration" in second
     assert chosen.changes["residual acceleration"] == pytest.approx(0.424, abs=5e-3)
 
@@ -167,7 +167,7 @@ def test_points_below_the_front_take_more_of_what_its_legend_names(rise: Advice)
         assert not below or any(law.values[name] > usual[name] for name in ("velocity", "jerk"))
     labels = [str(artist.get_label()) for artist in rise.plot()]
     assert "no law with no more velocity or jerk than modified sine is below" in labels
-    assert "hollow: more velocity or jerk than modified sine" in labels
+    assert "open markers: more velocity or jerk than modified sine" in labels
 
 
 def test_the_front_exchanges_one_for_the_other_and_no_law_betters_it(rise: Advice) -> None:
@@ -375,11 +375,11 @@ def test_an_advice_leaves_as_plain_data_a_table_and_a_picture(rise: Advice) -> N
     assert len(rise.rows) == len(rise)
     assert list(rise.proofs()["laws"]) == [law.name for law in rise if law.solutions]
     rows = {row.name: row for row in rise.summary()}
-    assert rows["take"].value == rise.recommendation.law.name
+    assert rows["recommended"].value == rise.recommendation.law.name
     assert rows["acceleration"].value == rise.recommendation.law.values["acceleration"]
     labels = [artist.get_label() for artist in rise.plot()]
     assert labels[0] == "front"
-    assert labels[-1] == "law to take"
+    assert labels[-1] == "recommended law"
     assert {"standard laws", "optimal laws"} <= set(labels)
     assert "<table>" in rise._repr_html_()
     assert str(rise) in rise._repr_html_().replace("&quot;", '"')

@@ -156,7 +156,7 @@ def test_b_c_d_and_j_have_entries_of_their_own() -> None:
         ([("rms_c", 3)], "must be a dict"),
         ({"rms": 3, "rms_c": 4}, "twice"),
         ({"rms_c": "4"}, "finite number"),
-        ({"rms_c": 0}, "exceed 0"),
+        ({"rms_c": 0}, "excludes every law: it must be above 0"),
         ({"rms_c": -1}, "at least 0"),
     ],
 )

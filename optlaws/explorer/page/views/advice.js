@@ -1,5 +1,5 @@
 // The view of advice: which law the motion of a cycle or of a machine should have. Standard and optimal laws side by side
-// with all that they take, the one to take in two sentences, the front, and curves of it beside the usual law.
+// with all their measures, the recommended one in two sentences, the front, and curves of it beside the usual law.
 
 import { Chart, spanOf } from "../chart.js";
 import { group } from "../fields.js";
@@ -251,11 +251,11 @@ function pictured({ picture: { x, y, front: [curves] }, measures, rows, chosen }
       ...known.map((point) => ({ at: [point.x, point.y], name: `advised ${point.kind}${point.more.length ? " beyond" : ""}${point.name === chosen ? " chosen" : ""}`, title: `${point.name}: ${word(point.y)}${point.more.length ? `; more ${point.more.join(", ")} than the usual law` : ""}` })),
     ],
     labels: placed(known.map((point) => ({ ...point, of: point.name === chosen })), range, log),
-    told: `${y.name} over ${x.name}: ${known.map((point) => `${point.name} ${word(point.y)} at ${word(point.x)}`).join(", ")}${best ? `; to take is ${best.name}` : ""}`,
+    told: `${y.name} over ${x.name}: ${known.map((point) => `${point.name} ${word(point.y)} at ${word(point.x)}`).join(", ")}${best ? `; recommended is ${best.name}` : ""}`,
   };
 }
 
-/** Names beside the points, without those that would lie on another one: first of the law to take, then of standard laws. */
+/** Names beside the points, without those that would lie on another one: first of the recommended law, then of standard laws. */
 function placed(points, range, log) {
   const heights = points.map(({ y }) => y);
   const [low, tall] = [Math.min(...heights), Math.max(...heights) - Math.min(...heights) || 1];
@@ -263,7 +263,7 @@ function placed(points, range, log) {
   const kept = [];
   for (const point of [...points].sort((one, other) => other.of - one.of || (one.kind === "optimal") - (other.kind === "optimal"))) {
     if (point.name.includes(",") && !point.of) continue;
-    const text = point.of ? "to take" : point.name;
+    const text = point.of ? "recommended" : point.name;
     const long = LETTER * text.length;
     const end = along(point.x) > Math.min(0.66, 1 - long);
     const from = along(point.x) - (end ? long : 0);
@@ -287,7 +287,7 @@ function layout(root) {
   root.append(
     at.asked,
     html("section", { id: "advice-middle", "aria-label": "Laws side by side" }, at.words, at.table),
-    html("section", { id: "advice-side", "aria-label": "The laws in a picture, and the one to take beside the usual one" },
+    html("section", { id: "advice-side", "aria-label": "The laws in a picture, and the recommended one beside the usual one" },
       html("div", { class: "panel" }, at.chart), html("div", { class: "panel", id: "advice-motion" }, at.names, at.curves)),
   );
   return at;
