@@ -66,7 +66,7 @@ nitpicky = True
 # only references to optlaws itself can be resolved, and those must be.
 nitpick_ignore_regex = [("py:.*", r"(?!optlaws\.).*"), ("py:.*", r"optlaws\.(.*\.)?_.*")]
 # rooms whose inner classes stand in signatures: what of them is public is documented by name
-nitpick_ignore_regex.append(("py:class", r"optlaws\.(cams|cycles|entries|exports)\..*"))
+nitpick_ignore_regex.append(("py:class", r"optlaws\.(cams|cycles|entries|exports|shown)\..*"))
 # what a solution keeps for its neighbours, and the engine that constants are written over; not public
 nitpick_ignore = [
     ("py:class", "optlaws.formulas.tree.Formula"),
