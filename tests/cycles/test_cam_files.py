@@ -51,7 +51,7 @@ def compared(made: Export, file: Path) -> None:
         x, y = x * made.motion.stop / 360.0, y / {"mm": 1.0, "in": 25.4, "m": 1e3}[units.slave]
     else:
         assert (read.units.master, read.units.slave) == (units.master, units.slave)
-    assert read.units.rate is None or read.units.rate == pytest.approx(units.rate, rel=1e-8)
+    assert read.rate is None or read.rate == pytest.approx(units.rate, rel=1e-8)
     assert x[[0, -1]] == pytest.approx(made.motion.breaks[:: len(made.motion.breaks) - 1], rel=1e-7, abs=1e-7)
     close = {"rockwell-cam": 3e-7, "iec-st-real": 1e-6, "br-acp10": 1e-6}.get(name, 1e-9)
     run = made.run(np.clip(x, made.run.start, made.run.stop))

@@ -9,7 +9,7 @@ import numpy as np
 from optlaws.cycles.answers import Answers, answer
 from optlaws.cycles.axes.enclosed import SimplePolygon
 from optlaws.cycles.old_tables.better_laws import nothing_to_better
-from optlaws.cycles.old_tables.reading import CamPoints, points_in
+from optlaws.cycles.old_tables.reading import points_in
 from optlaws.cycles.old_tables.stretches import law_of_move
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.optimisation.optimal import halved
@@ -23,11 +23,12 @@ from optlaws.cycles.usual_law import usual_cycle
 from optlaws.files import reading
 from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.laws.catalogue.tables.columns import LARGEST_TABLE
+from optlaws.laws.catalogue.tables.table_points import TablePoints
 from optlaws.motion.quantities import Kind
 from optlaws.synthesis.least_time.timed_move import RATES as OBJECTIVES_OF_MOVES
 
 
-def read_points(file: Path, *columns: Any, **options: Any) -> CamPoints:
+def read_points(file: Path, *columns: Any, **options: Any) -> TablePoints:
     """The points of a file, as `optlaws.read_cycle_table` reads them, and places of the functions between them."""
     points = points_in(reading.text(file, LARGEST_TABLE, legacy=True), file, *columns, **options)
     if not points.pieces:

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
 from optlaws.errors import InputError, located
 from optlaws.laws.catalogue.tables.columns import ISG, points_of
-from optlaws.laws.catalogue.tables.curve_pieces import CurvePiece
-from optlaws.laws.catalogue.tables.table_points import TablePoints
+from optlaws.laws.catalogue.tables.table_points import TablePoints, TableUnits
 from optlaws.motion.quantities import either
-from optlaws.numbers import Array
 
 _WHOLE_TURN = 1e-6  # of a turn: a master without a unit whose length is so near 360, 1 or 2 pi is one turn
 
@@ -36,29 +33,6 @@ _FACTOR = re.compile(rf"\s*({_NUMBER}|\.\d+)\s*(\D.*)")
 _TURNS = {360.0: "deg", 1.0: "turn", 2.0 * np.pi: "rad"}
 
 
-class TableUnits(NamedTuple):
-    """The units of positions and of the master, how many of these a number is, and the speed of the master if known."""
-
-    slave: str
-    master: str
-    slave_size: float = 1.0
-    master_size: float = 1.0
-    rate: float | None = None
-
-
-@dataclass(frozen=True)
-class CamPoints:
-    """Points of a cam with units: the master and the positions, arrays of shape (n,)."""
-
-    places: Array
-    heights: Array
-    digit: float  #: the unit of the last digit of the positions
-    layout: str
-    units: TableUnits
-    pieces: tuple[CurvePiece, ...] = ()  #: what runs between the points, where the file states it
-    lines: Sequence[int] = ()  #: where the points stand in the file
-
-
 def points_in(
     content: str,
     path: Path,
@@ -67,45 +41,37 @@ def points_in(
     unit: str | None = None,
     master: str | None = None,
     cam: str | None = None,
-) -> CamPoints:
-    """The points in the text of a table in any layout, as `read_cycle_table` takes it; errors call it `path`."""
+) -> TablePoints:
+    """The points in the text of a table in any layout, as `read_cycle_table` takes it; errors call it `path`.
+
+    Their units are those that are given, else those in comments of optlaws or in headings, else by the length of the
+    master.
+    """
     points = points_of(path, columns, most=5, content=content, cam=cam)
-    with located(str(path)):
-        if points.layout.startswith("ROS") and unit is None and _about(content) is None:
-            raise InputError("positions of ROS are in m or rad: say which as the unit")
-        units = _units(points, content, unit, master)
-    slave, size = units.slave_size, units.master_size
-    places, heights = size * np.array(points.places), slave * np.array(points.heights)
-    pieces = tuple(piece.scaled(size, slave) for piece in points.pieces)
-    whole = TableUnits(units.slave, units.master, rate=units.rate)
-    return CamPoints(places, heights, slave * points.digit, points.layout, whole, pieces, points.lines)
-
-
-def _about(content: str) -> re.Match[str] | None:
-    return next((match for pattern in _ABOUT if (match := pattern.search(content[:10_000]))), None)
-
-
-def _units(points: TablePoints, content: str, unit: str | None, master: str | None) -> TableUnits:
-    """The given TableUnits, or the units from comments of optlaws or headings, or from the length of the master."""
-    about = _about(content)
-    stated = (about["master"], about["slave"]) if about else ("", "")
-    if points.layout == ISG:
-        # whole numbers of 1e-4 deg or 1e-4 mm, whatever the units of what they were made of
-        turns = bool(stated[1]) and either(f"1 {stated[1]}", ("length", "angle"), "unit")[0] == "angle"
-        stated = ("deg", "deg" if turns else "mm")
-    elif points.layout.startswith("ROS"):
-        stated = (points.units[0], stated[1])
-    stated_rate = _RATE.search(content[:10_000])
-    rate = about.groupdict().get("rate") if about else None
-    rate = rate or (stated_rate[1] if stated_rate else None)
+    about = next((match for pattern in _ABOUT if (match := pattern.search(content[:10_000]))), None)
+    stated = TableUnits(about["master"], about["slave"]) if about else TableUnits()
     length = abs(points.places[-1] - points.places[0])
     supposed = next((name for turn, name in _TURNS.items() if abs(length - turn) <= _WHOLE_TURN * turn), "deg")
-    of_master = master or stated[0] or _unit_in(points.units[0], ("angle", "time")) or supposed
-    of_slave = unit or stated[1] or _unit_in(points.units[1], ("length", "angle")) or "mm"
-    slave_size, slave = _sized(of_slave, ("length", "angle"), "unit")
-    master_size, of_units = _sized(of_master, ("angle", "time", "length"), "master")
-    known = float(rate) if rate and about and of_master == about["master"] else None
-    return TableUnits(slave, of_units, slave_size, master_size, known)
+    with located(str(path)):
+        if points.layout == ISG:
+            # whole numbers of 1e-4 deg or 1e-4 mm, whatever the units of what they were made of
+            turns = bool(about) and either(f"1 {stated.slave}", ("length", "angle"), "unit")[0] == "angle"
+            stated = TableUnits("deg", "deg" if turns else "mm")
+        elif points.layout.startswith("ROS"):
+            stated = stated._replace(master=points.units.master)
+            if unit is None and about is None:
+                raise InputError("positions of ROS are in m or rad: say which as the unit")
+        of_master = master or stated.master or _unit_in(points.units.master, ("angle", "time")) or supposed
+        of_slave = unit or stated.slave or _unit_in(points.units.slave, ("length", "angle")) or "mm"
+        size, slave = _sized(of_slave, ("length", "angle"), "unit")
+        step, whole = _sized(of_master, ("angle", "time", "length"), "master")
+    speed = _RATE.search(content[:10_000])
+    rate = (about.groupdict().get("rate") or (speed and speed[1])) if about and of_master == about["master"] else None
+    return replace(
+        points, places=step * points.places, heights=size * points.heights, digit=size * points.digit,
+        pieces=tuple(piece.scaled(step, size) for piece in points.pieces), units=TableUnits(whole, slave),
+        rate=float(rate) if rate else None,
+    )  # fmt: skip
 
 
 def _sized(text: str, dimensions: tuple[str, ...], name: str) -> tuple[float, str]:

@@ -15,7 +15,7 @@ from optlaws.cycles.old_tables.better_laws import MoveGain, bettered, gain
 from optlaws.cycles.old_tables.frame import begun, closed, in_order, in_unit, of_lobe, period_of, whole_turn
 from optlaws.cycles.old_tables.motion import NOISE_ROOM, motion_of
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
-from optlaws.cycles.old_tables.reading import CamPoints, TableUnits, points_in
+from optlaws.cycles.old_tables.reading import points_in
 from optlaws.cycles.old_tables.samples import samples_of
 from optlaws.cycles.old_tables.stated_functions import stretches_of_pieces
 from optlaws.cycles.old_tables.stretches import Stretch, law_of_move, position, seam_of, stretches_of
@@ -25,6 +25,7 @@ from optlaws.files import reading
 from optlaws.laws.catalogue.tables.columns import LARGEST_TABLE
 from optlaws.laws.catalogue.tables.controller_files import FEWEST_POINTS
 from optlaws.laws.catalogue.tables.curve_pieces import APART, CurvePiece
+from optlaws.laws.catalogue.tables.table_points import TablePoints, TableUnits
 from optlaws.motion.quantities import QUANTITIES, Exact, either
 from optlaws.numbers import Array, NumberOrQuantity, Quantity, not_negative, numbers, positive
 from optlaws.sentences import Amount, joined, sentence
@@ -420,7 +421,7 @@ def read_cycle_table(
 
 
 def table_of(
-    points: CamPoints,
+    points: TablePoints,
     path: Path,
     tolerance: float | None = None,
     *,
@@ -452,7 +453,7 @@ def table_of(
                 places, heights, turn=length, advance=step, lobes=lobes, begin=first, tolerance=tolerance,
                 unit=units.slave, master=units.master, digit=points.digit,
             )  # fmt: skip
-    return replace(table, layout=points.layout, rate=units.rate)
+    return replace(table, layout=points.layout, rate=points.rate)
 
 
 def _of_pieces(

@@ -61,7 +61,8 @@ def law_of_points(
                     "it ends where it begins, as a whole cycle does: read_cycle_table and `optlaws cycle` divide it"
                 )
             return law_of_pieces(points.pieces)
-    k, a, unit, stroke = points.places, points.heights, points.digit, abs(points.heights[-1] - points.heights[0])
+    k, a, unit = points.places.tolist(), points.heights.tolist(), points.digit
+    stroke = abs(a[-1] - a[0])
     if unit > _COARSEST * stroke > 0.0:
         raise InputError(f"{file}: the displacements have too few digits, {unit:g} of a stroke of {stroke:g}")
     try:

@@ -210,10 +210,10 @@ def read_spectrum(
     """
     table = points_of(Path(file), columns)
     try:
-        nu = _in_motion(duration) * np.array(table.places)
+        nu = _in_motion(duration) * table.places
         if points is None:
-            return spectrum_of(zip(nu.tolist(), table.heights, strict=True))
-        return spectrum_of(above(nu, np.array(table.heights), points))
+            return spectrum_of(zip(nu.tolist(), table.heights.tolist(), strict=True))
+        return spectrum_of(above(nu, table.heights, points))
     except InputError as error:
         raise InputError(f"{file}: {error}") from None
 

@@ -17,7 +17,7 @@ from optlaws.files import reading
 from optlaws.files.writing import MARK
 from optlaws.laws.catalogue.tables.controller_files import FEWEST_POINTS, decoded
 from optlaws.laws.catalogue.tables.curve_pieces import pieces_between
-from optlaws.laws.catalogue.tables.table_points import TablePoints, resolution_of
+from optlaws.laws.catalogue.tables.table_points import TablePoints, TableUnits, resolution_of
 from optlaws.laws.catalogue.tables.tokens import NUMBER, TextCell, cells_of, no_number, uncommented
 from optlaws.numbers import Array
 
@@ -103,23 +103,22 @@ def points_of(
     matches = _checked(lines, chosen, str(file))
     texts = [[str(match[1]).replace(",", ".") for match in row] for row in matches]
     distinct = [i for i, row in enumerate(texts) if not i or row != texts[i - 1]]
-    places, heights, *derivatives = ([float(texts[i][n]) for i in distinct] for n in range(len(chosen)))
+    places, heights, *derivatives = (np.array([float(texts[i][n]) for i in distinct]) for n in range(len(chosen)))
     above = [headings[i] if i < len(headings) else "" for i in chosen[:2]]
     names = [f"{name} {match[2] or ''}".strip() for name, match in zip(above, matches[0], strict=False)]
     digit, numbered = resolution_of([texts[i][1] for i in distinct], heights), [lines[i].number for i in distinct]
-    points = TablePoints(places, heights, digit, "columns of numbers", units=(names[0], names[1]), lines=numbered)
+    points = TablePoints(places, heights, digit, "columns of numbers", units=TableUnits(*names), lines=numbered)
     with located(str(file)):
         if derivatives:
             return _with_derivatives(points, derivatives)
         return _with_keywords(points, uncommented(text), len(lines))
 
 
-def _with_derivatives(points: TablePoints, derivatives: Sequence[Sequence[float]]) -> TablePoints:
+def _with_derivatives(points: TablePoints, derivatives: Sequence[Array]) -> TablePoints:
     """The polynomials between points with derivatives, which may be by the second."""
-    places, heights, velocities = map(np.array, (points.places, points.heights, derivatives[0]))
-    rate = rate_of(places, heights, velocities, points.lines)
-    scaled = ([value / rate**nu for value in row] for nu, row in enumerate(derivatives, start=1))
-    rows = list(zip(points.places, points.heights, *scaled, strict=True))
+    rate = rate_of(points.places, points.heights, derivatives[0], points.lines)
+    scaled = [row / rate**nu for nu, row in enumerate(derivatives, start=1)]
+    rows = np.column_stack([points.places, points.heights, *scaled]).tolist()
     pieces = pieces_between(rows, [None] * len(rows), points.lines)
     return TablePoints.of_pieces(pieces, points.layout, units=points.units, lines=points.lines)
 
@@ -173,7 +172,7 @@ def _with_keywords(points: TablePoints, text: str, count: int) -> TablePoints:
         )
     if layout != ISG:
         return replace(points, layout=layout)
-    places, heights = ([_ISG_DIGIT * value for value in row] for row in (points.places, points.heights))
+    places, heights = _ISG_DIGIT * points.places, _ISG_DIGIT * points.heights
     points = replace(points, layout=layout, places=places, heights=heights, digit=_ISG_DIGIT * points.digit)
     kind = header["functiontype"].number() if "functiontype" in header else None
     return _of_lines_and_polynomials(points, first_is_line=kind == 5) if kind in {4, 5} else points
@@ -190,7 +189,8 @@ def _of_lines_and_polynomials(points: TablePoints, *, first_is_line: bool) -> Ta
             f"line {points.lines[-1]}: lines and polynomials alternate over an even number of points, and the table "
             f"has {len(points.places)}"
         )
-    rows = [*zip(points.places, points.heights, strict=True), (points.places[0] + 360.0, points.heights[0])]
+    rows = np.column_stack([points.places, points.heights]).tolist()
+    rows.append([rows[0][0] + 360.0, rows[0][1]])
     both = ["line", "polyfive"] if first_is_line else ["polyfive", "line"]
     lines = [*points.lines, points.lines[-1]]
     pieces = pieces_between(rows, both * (len(rows) // 2), lines, endless=True)

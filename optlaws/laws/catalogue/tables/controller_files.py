@@ -225,7 +225,7 @@ def _of_records(layout: FieldLayout, records: Sequence[_Record]) -> TablePoints:
     straight = "type" in roles and all(profile and degree_of(profile) == 1 for profile in profiles[:-1])
     if ("type" not in roles and min(map(len, points)) < 3) or (straight and len(points) >= FEWEST_POINTS):
         # samples of a motion, whatever runs between them
-        places, heights = ([point[i] for point in points] for i in (0, 1))
+        places, heights = (np.array([point[i] for point in points]) for i in (0, 1))
         digit = resolution_of([record["y"].text for record in records], heights)
         return TablePoints(places, heights, digit, layout.name, lines=lines, units=layout.units)
     pieces = pieces_between(points, profiles, lines)
@@ -369,8 +369,10 @@ def _of_cam_profile(rows: Sequence[Sequence[TextCell]]) -> TablePoints:
     if len(values) < FEWEST_POINTS:
         return TablePoints.of_pieces(pieces, "Rockwell CAM_PROFILE", lines=[row[0].line for row in rows])
     # the points are the cam, and the spline through them the controller's
-    places, heights = ([numbers[i] for numbers in values] for i in (0, 1))
-    return TablePoints(places, heights, resolution_of(list(map(repr, heights)), heights), "Rockwell CAM_PROFILE")
+    places, heights = (np.array([numbers[i] for numbers in values]) for i in (0, 1))
+    return TablePoints(
+        places, heights, resolution_of(list(map(repr, heights.tolist())), heights), "Rockwell CAM_PROFILE"
+    )
 
 
 def _of_source(text: str, named: dict[str, tuple[str, int, str]]) -> TablePoints:

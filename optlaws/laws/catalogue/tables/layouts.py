@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+from optlaws.laws.catalogue.tables.table_points import NO_UNITS, TableUnits
+
 
 @dataclass(frozen=True)
 class FieldLayout:
@@ -19,7 +21,7 @@ class FieldLayout:
     name: str
     fields: str
     profiles: Mapping[str, str] | None = None  #: what numbers stand for in the field of the type
-    units: tuple[str, str] = ("", "")  #: of master and positions, where the structure says them
+    units: TableUnits = NO_UNITS  #: of master and positions, where the structure says them
 
     @cached_property
     def roles(self) -> dict[str, str]:
@@ -89,5 +91,7 @@ LAYOUTS = (
     FieldLayout(
         "ABB MC_PPROFILE", "x=master_position y=interpolation_point v=Velocity_ratio a=Acceleration_ratio",
     ),
-    FieldLayout("ROS 2 JointTrajectory", "y=positions v=velocities a=accelerations x=time_from_start", units=("s", "")),
+    FieldLayout(
+        "ROS 2 JointTrajectory", "y=positions v=velocities a=accelerations x=time_from_start", units=TableUnits("s"),
+    ),
 )  # fmt: skip

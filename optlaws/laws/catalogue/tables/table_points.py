@@ -4,8 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
 
 from optlaws.laws.catalogue.tables.curve_pieces import CurvePiece, check_joints
+from optlaws.numbers import Array
+
+
+class TableUnits(NamedTuple):
+    """The units of the master and of positions; empty where they are not known."""
+
+    master: str = ""
+    slave: str = ""
+
+
+NO_UNITS = TableUnits()
 
 
 @dataclass(frozen=True)
@@ -15,7 +29,7 @@ class TablePoints:
     Attributes
     ----------
     places, heights
-        Times, angles or lengths, and positions, as the table has them.
+        Times, angles or lengths, and positions, as the table has them, arrays of shape (n,).
     digit
         The unit of the last digit of the positions; 0 where functions are stated.
     layout
@@ -23,31 +37,34 @@ class TablePoints:
     pieces
         What runs between the points; empty where that is not stated.
     units
-        Of places and positions, where the layout or a heading says them; else empty.
+        Where the layout says them; of columns the headings.
     lines
         Where the points stand in the file.
+    rate
+        How many units of the master go by in a second, where the file says it.
     """
 
-    places: list[float]
-    heights: list[float]
+    places: Array
+    heights: Array
     digit: float
     layout: str
     pieces: tuple[CurvePiece, ...] = ()
-    units: tuple[str, str] = ("", "")
+    units: TableUnits = NO_UNITS
     lines: Sequence[int] = ()
+    rate: float | None = None
 
     @classmethod
     def of_pieces(
-        cls, pieces: Sequence[CurvePiece], layout: str, lines: Sequence[int], units: tuple[str, str] = ("", "")
+        cls, pieces: Sequence[CurvePiece], layout: str, lines: Sequence[int], units: TableUnits = NO_UNITS
     ) -> TablePoints:
         """Pieces that follow each other, with the points where they meet."""
         check_joints(pieces, lines)
         places = [*(piece.start for piece in pieces), pieces[-1].stop]
         heights = [*(piece.ends[0] for piece in pieces), pieces[-1].ends[1]]
-        return cls(places, heights, 0.0, layout, tuple(pieces), units, lines)
+        return cls(np.array(places), np.array(heights), 0.0, layout, tuple(pieces), units, lines)
 
 
-def resolution_of(texts: Sequence[str], values: Sequence[float]) -> float:
+def resolution_of(texts: Sequence[str], values: Sequence[float] | Array) -> float:
     """The unit of the last digit of the large values: small values have more decimals, round ones fewer.
 
     >>> resolution_of(["0.0001", "12.5", "30.25"], [0.0001, 12.5, 30.25])
