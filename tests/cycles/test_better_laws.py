@@ -9,6 +9,7 @@ from scipy.optimize import linprog
 
 from optlaws import Cycle, Dwell, MotionLaw, Return, Rise, catalogue, read_cycle_table, split_table
 from tests.cycles.test_cam_files import units_of
+from tests.cycles.test_old_motions import valve_lift
 from tests.internals.cycles import law_of_move
 
 QUINTIC = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
@@ -116,6 +117,21 @@ def test_a_tolerance_that_is_too_small_is_named_with_one_that_is_enough() -> Non
         assert "within" in small.why_kept(part)
     enough = old.bettered(max(part.needs for part in small.moves))
     assert all(gain.share(2) < 0.0 for gain in enough.gains(old))
+
+
+def test_a_valve_without_a_dwell_is_bettered_within_the_tolerance_that_is_named() -> None:
+    """Its acceleration jumps at the foot, where new laws begin without: that takes some of the lift."""
+    old = split_table(*valve_lift(9.0, 335.0, 575.0))
+    small = old.bettered(0.05)
+    assert all(part.solution is None and part.kept for part in small.moves)
+    (needs,) = [part.needs for part in small.moves if part.needs]
+    enough = old.bettered(needs)
+    assert all(-0.1 < gain.share(2) < 0.0 and gain.deviation <= needs for gain in enough.gains(old))
+    cycle = enough.cycle(speed="2000 rpm")
+    assert cycle.peak(2) < 1776.53
+    for part in enough.stretches:
+        beside = part.start + np.array([-1e-7, 1e-7])
+        assert np.ptp(cycle.at_angle(beside % 360.0, 2)) <= 1e-4 * cycle.peak(2)
 
 
 @pytest.mark.parametrize("name", ["c99", "codesys-xyva", "codesys-cambuilder", "iec-st", "twincat-nc2", "kas"])

@@ -101,19 +101,21 @@ def bettered(stretches: Sequence[Stretch], room: float, order: int, degree: int)
     further derivatives, as many as its order says, are 0; where two moves go on into each other they are those of both
     new laws, by the move of the greater acceleration; at a corner they are free.
     """
+    count = len(stretches)
     moves = [i for i, part in enumerate(stretches) if part.law is not None]
     moves.sort(key=lambda i: -_acceleration(stretches[i]))
+    # what these have where they go on into other moves is that of their old laws
+    as_before = {i for i in moves if all(stretches[j % count].line is not None for j in (i - 1, i + 1))}
     kept = dict[int, Stretch]()
     while True:
-        found, known = [kept.get(i, part) for i, part in enumerate(stretches)], set(kept)
+        found, known = list(stretches), set(as_before)
         for i in moves:
-            if i in kept:
-                continue
-            found[i] = _better(found, known, i, room, order, degree)
+            part = _better(found, known, i, room, order, degree, as_before=i in as_before)
+            # the first reason is that of its own tolerance, not of what its neighbours have
+            found[i] = kept.setdefault(i, part) if part.kept else part
             known.add(i)
-            if found[i].kept:
-                # moves beside it are to go on into its old law
-                kept[i] = found[i]
+            if part.kept and i not in as_before:
+                as_before.add(i)
                 break
         else:
             return found
@@ -124,7 +126,14 @@ def _acceleration(part: Stretch) -> float:
 
 
 def _better(
-    found: Sequence[Stretch], known: Container[int], number: int, room: float, order: int, degree: int
+    found: Sequence[Stretch],
+    known: Container[int],
+    number: int,
+    room: float,
+    order: int,
+    degree: int,
+    *,
+    as_before: bool,
 ) -> Stretch:
     """A move with a better law, between those that are known of others; or why it keeps its own."""
     part = found[number]
@@ -132,9 +141,9 @@ def _better(
     what = nothing_to_better(old)
     if what:
         return replace(part, kept=f"it is {what}")
-    ends = _ends(found, known, number, order)
+    ends = _ends(found, known, number, order, as_before=as_before)
     if any(abs(value) >= old.constants.C.value * (1.0 - _LEAST_GAIN) for state in ends for value in state[2:3]):
-        return replace(part, kept="its acceleration is greatest where it goes on into a move that keeps its law")
+        return replace(part, kept="its acceleration is greatest where it goes on into the next move")
     try:
         solution = _least(old, share, order, degree, ends)
         why = f"none of order {order} and degree {degree} so near has less"
@@ -159,7 +168,7 @@ def nothing_to_better(old: MotionLaw) -> str:
     return "at constant acceleration, without jerk" if old.constants.J.value == 0.0 else ""
 
 
-def _ends(found: Sequence[Stretch], known: Container[int], number: int, order: int) -> Ends:
+def _ends(found: Sequence[Stretch], known: Container[int], number: int, order: int, *, as_before: bool) -> Ends:
     """The states at the ends of a move: position and velocity, and as many further derivatives as are known."""
     part = found[number]
     old, length = law_of_move(part), part.stop - part.start
@@ -176,8 +185,9 @@ def _ends(found: Sequence[Stretch], known: Container[int], number: int, order: i
             goes_on = [size * ratio**nu * value for nu, value in enumerate(values)]
         velocity = 0.0 if abs(own[1]) <= same else own[1]
         corner = abs(velocity - goes_on[1]) > same
-        free = order <= _FREE and (corner or (beside.line is None and other != number and other not in known))
-        states.append((float(place), velocity, *([] if free else own[2:] if corner else goes_on[2:]))[:order])
+        further = own[2:] if corner or (as_before and beside.line is None) else goes_on[2:]
+        open_end = corner or not (beside.line is not None or as_before or other == number or other in known)
+        states.append((float(place), velocity, *([] if open_end and order <= _FREE else further))[:order])
     return states[0], states[1]
 
 
