@@ -211,6 +211,29 @@ def saves(page: Page, kind: str) -> str:
     return Path(download.value.path()).read_text("utf-8")
 
 
+def test_views_and_units_chosen_while_the_server_is_away_are_shown_when_it_is_back(
+    page: Page, served: Server, watch: Watch
+) -> None:
+    def back() -> None:
+        page.locator("#notice", has_text="The server does not answer").wait_for()
+        assert all("ERR_INTERNET_DISCONNECTED" in text for text in watch.complaints)
+        watch.complaints.clear()
+        page.context.set_offline(False)
+
+    go(page, f"http://{served.host}/")
+    page.context.set_offline(True)
+    page.get_by_role("tab", name="Cycle").click()
+    back()
+    page.locator("#motion .title", has_text="mm/s").wait_for()
+    settle(page)
+    assert not page.locator("#notice").is_visible()
+    page.context.set_offline(True)
+    page.get_by_text("Settings", exact=True).click()
+    page.get_by_label("length", exact=True).select_option("in")
+    back()
+    page.locator("#motion .title", has_text="in/s").first.wait_for()
+
+
 def test_what_is_saved_is_what_is_seen(page: Page, served: Server) -> None:
     go(page, served.link(laws=[at_velocity(1.859), {"name": "modified sine"}], picture="residual"))
     assert "Problem(B=1.859, order=4" in saves(page, "python")

@@ -45,6 +45,30 @@ export async function during(promise) {
   }
 }
 
+/** Whether the server answers: an error where it does not. */
+export const present = () => fetch("icon.svg", { cache: "no-store" });
+
+/** What `load` gives; where it fails while the server is away it is tried again as soon as the server answers. */
+export async function reached(load) {
+  const away = { busy: true, lost: false };
+  all.add(away);
+  try {
+    return await load();
+  } catch {
+    while (!(await present().then(() => true, () => false))) {
+      if (!away.lost) {
+        away.lost = true;
+        changed();
+      }
+      await new Promise((resolve) => setTimeout(resolve, AGAIN));
+    }
+    return await load();
+  } finally {
+    all.delete(away);
+    changed();
+  }
+}
+
 class Lost extends Error {}
 
 async function ask(path, question, patience, signal) {

@@ -3,7 +3,7 @@
 import { Details, begun, keep } from "./document.js";
 import { Exporting } from "./exporting.js";
 import { tabs } from "./fields.js";
-import { during, observe } from "./latest.js";
+import { during, observe, reached } from "./latest.js";
 import { Opening } from "./opening.js";
 import { reporting } from "./report.js";
 import { fileOf } from "./saving.js";
@@ -113,10 +113,13 @@ async function begin() {
   const details = new Details(study);
   const tools = new Tools(document.getElementById("tools"), study, notice, { exporting, opening, details, shown });
 
-  /** A view is loaded when it is first shown. */
+  /** A view is loaded when it is first shown; one that fails to load is loaded when it is next shown. */
   async function load(name) {
     views[name] = null;
-    const { View } = await VIEWS[name].load();
+    const { View } = await reached(VIEWS[name].load).catch((error) => {
+      delete views[name];
+      throw error;
+    });
     views[name] = new View(rootOf(name), study, start, painted);
     render(study.state); // its questions begin before this work ends
   }

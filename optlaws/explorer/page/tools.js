@@ -1,5 +1,6 @@
 // The tools of the head: undo, redo, the link, files to save, dark and light.
 
+import { present, reached } from "./latest.js";
 import { save, savings } from "./saving.js";
 import { html } from "./svg.js";
 import { toggle } from "./theme.js";
@@ -70,7 +71,7 @@ function settings(study) {
     select.addEventListener("change", () => {
       act(select.value);
       study.keep();
-      location.reload();
+      reached(present).then(() => location.reload());
     });
     return html("label", { class: "entry" }, html("span", { class: "field-name", text: name }), select);
   };
