@@ -311,9 +311,10 @@ class Export(TextFile):
         return self.written.points
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:
-        """Draw the motion and the executed motion over the master, down to the jerk; return the artists.
+        """Draw the motion and the executed motion over the master, down to the jerk, and the difference beside them.
 
-        `ax` are four axes of matplotlib, new ones unless given; `style` is what `Axes.plot` takes, for the run.
+        `ax` are four axes of matplotlib for the motions alone, or four rows of two, new ones unless given; `style` is
+        what `Axes.plot` takes, for the run. Returns the artists.
 
         Examples
         --------

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -22,8 +23,8 @@ from optlaws.jobs.cycle_entries import AxisEntries, drive_of
 from optlaws.jobs.job_entries import ProblemFile, plain_name
 from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.motion.quantities import UNITS
-from optlaws.numbers import NumberOrQuantity, Quantity
+from optlaws.motion.quantities import UNITS, Exact
+from optlaws.numbers import NumberOrQuantity, Quantity, chop
 from optlaws.plots.moves import fronts_figure, motion_figure, strokes_figure
 from optlaws.results import Page, Results
 from optlaws.shown.steps import step
@@ -38,6 +39,7 @@ HEADINGS = (
     "no law below, s", "best possible, s", "above it, %", "status", "binds",
 )  # fmt: skip
 _FEW = 7
+_NOTHING = 1e-9  # of the vibration after the least time: what is rounding
 _PERCENT = 100.0
 _STROKE = Measured("length", "angle")
 
@@ -126,8 +128,20 @@ def _sought(move: MoveEntries, space: Problem, folder: Path) -> SoughtMove:
         return SoughtMove(move.name, (quickest,), ())
     extent = front.longest, front.points
     with located("front"):
-        fronts = tuple(front_of(quickest, move, name, given, extent) for name in front.minimise)
+        fronts = tuple(_front(quickest, move, name, given, extent) for name in front.minimise)
     return SoughtMove(move.name, (quickest,), fronts)
+
+
+def _front(
+    quickest: FastestMove, move: MoveEntries, minimise: str, given: dict[str, Any], extent: tuple[Any, int]
+) -> TimeFront:
+    """The front of a move; of a vibration, where no longest time is given, only as far as it leaves something."""
+    step(f"move {move.name}: least {minimise}")
+    front = front_of(quickest, move, minimise, given, extent)
+    calm = next((point.duration for point in front if point.value <= _NOTHING * front[0].value), inf)
+    if extent[0] is None and minimise in RESIDUALS and front.durations[0] < calm < front.durations[-1]:
+        return front_of(quickest, move, minimise, given, (Exact(calm, "s"), extent[1]))
+    return front
 
 
 def arguments_of(move: MoveEntries, folder: Path) -> dict[str, Any]:
@@ -236,7 +250,8 @@ def _points(front: TimeFront) -> list[list[Cell]]:
         # what of a search or of a phase plane differs between machines is not shown
         sure = solution.status is Status.OPTIMAL
         bound = point.lower_bound if sure else float(f"{point.lower_bound:.3g}")
-        rows.append([point.duration, point.value, bound, gap(solution) if sure else None, solution.status.value])
+        value = chop(point.value, front[0].value, _NOTHING)
+        rows.append([point.duration, value, bound, gap(solution) if sure else None, solution.status.value])
     return rows
 
 

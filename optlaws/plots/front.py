@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from math import floor, log10
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
     from optlaws.cycles.advising.advice import Advice
     from optlaws.cycles.moves.time_front import TimeFront
+    from optlaws.numbers import Array
     from optlaws.shown.report import Panel
     from optlaws.synthesis.pareto import Front
     from optlaws.synthesis.proven.front import ProvenFront
@@ -25,18 +27,36 @@ if TYPE_CHECKING:
 _BESIDE_POINT = 1e-6  # of the time between two points of a front: so near to one what is drawn is what holds between
 
 _BETWEEN = 8
+_FALLS, _NOTHING = 30.0, 1e-6  # by how much values fall that are drawn by their logarithms, and what is rounding
 #: values that are further apart are drawn by their logarithms
 _WIDE = 10.0
 _NAMES = 0.22  # of the width, for names beside points at the right
 
 
 def draw_front(front: Front | ProvenFront, axes: Axes | None = None, **style: Any) -> list[Artist]:
-    """Draw a front into axes, new ones by default, and return the artists: a third constant gives the colour."""
+    """Draw a front into axes, new ones by default, and return the artists: a third constant gives the colour.
+
+    A front of points is its points, with a line down to what no law of the space is below; one that is proven at every
+    value is a curve.
+    """
     axes = axes or new_axes()
     axes.set(xlabel=axis_label(front.over[0]), ylabel=axis_label(front.over[1]))
     panels = front.report().panels
     if panels:
-        return list(axes.plot(panels[0].series[0].at, panels[0].series[0].values, **style))
+        curve, below, *_ = panels[0].series
+        every, problem = not hasattr(front, "points"), next(iter(cast("Front", front))).problem
+        look = {"linewidth": 1.4} if every else {"marker": "o", "markersize": 4.5, "linewidth": 0.0}
+        named = {"label": f"order {problem.order}, {problem.basis!r}", **look, **style}
+        artists: list[Artist] = list(axes.plot(curve.at, curve.values, **named))
+        colour = style.get("color", artists[0].get_color())  # type: ignore[attr-defined] # of a line
+        bound: dict[str, Any] = {"color": GREY, "label": "no law below" * (not axes.get_legend())}
+        if every:
+            artists += axes.plot(below.at, below.values, linewidth=0.8, **bound)
+        else:
+            artists += axes.plot(below.at, below.values, linewidth=0.0, marker="_", markersize=9.0, **bound)
+            artists.append(axes.vlines(curve.at, below.values, curve.values, color=colour, alpha=0.35, linewidth=1.0))
+        axes.legend(fontsize=8.0)
+        return artists
     values = cast("Front", front).values
     style = {"s": 18.0, "c": values[:, 2], **{key: value for key, value in style.items() if key != "color"}}
     points = axes.scatter(values[:, 0], values[:, 1], **style)
@@ -52,8 +72,22 @@ def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) ->
     label = style.pop("label", front.minimise)
     times = np.array(front.durations)
     lower, upper = np.array(front.lower_bounds), np.array(front.values)
+    # values that go down to nothing are seen by their logarithms, and nothing at the foot of the scale
+    foot = _foot(upper)
     line = {"color": colour, "linewidth": 1.4, "linestyle": "-", "zorder": 4, **style}
-    points = axes.plot(MILLI * times, upper, marker="o", markersize=3.0, label=label, **line)
+    none = upper < foot
+    points = axes.plot(MILLI * times, np.where(none, np.nan, upper), marker="o", markersize=3.0, label=label, **line)
+    if none.any():
+        points += axes.plot(
+            MILLI * times[none],
+            np.full(none.sum(), foot),
+            color=colour,
+            marker="v",
+            markersize=6.0,
+            linewidth=0.0,
+            label="0 but for rounding",
+            clip_on=False,
+        )
     if front.falls:
         # both sides jump at points, and are smooth between two of them
         near = [_BESIDE_POINT * (high - low) for low, high in pairwise(times)]
@@ -62,17 +96,38 @@ def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) ->
         ]
         shown = np.unique(np.concatenate([times, *inside]))
         between = [front(float(time)) for time in shown]
-        below = [point.lower_bound for point in between]
+        below = np.maximum([point.lower_bound for point in between], foot)
         bound = axes.plot(MILLI * shown, below, color=GREY, linewidth=0.9, label="no law below")
         axes.fill_between(
-            MILLI * shown, below, [point.value for point in between], color=colour, alpha=0.15, linewidth=0
+            MILLI * shown,
+            below,
+            np.maximum([point.value for point in between], foot),
+            color=colour,
+            alpha=0.15,
+            linewidth=0,
         )
     else:
-        bound = axes.plot(MILLI * times, lower, color=GREY, linewidth=0.0, marker="_", label="no law below")
+        below = np.maximum(lower, foot)
+        bound = axes.plot(MILLI * times, below, color=GREY, linewidth=0.0, marker="_", label="no law below")
     least = axes.axvline(MILLI * front.fastest.duration, color=WARM, linewidth=1.0, linestyle="--", label="least time")
-    axes.set(xlabel="time of the move in ms", ylabel=f"least {front.minimise} in {front.unit}")
-    axes.set_ylim(bottom=0.0)
+    axes.set(xlabel="time of the move in ms", ylabel=f"least {front.minimise},\n{front.unit}")
+    if foot:
+        axes.set_yscale("log")
+    axes.set_ylim(bottom=foot)
     return [*points, *bound, least]
+
+
+def _foot(values: Array) -> float:
+    """Where a logarithmic scale of values begins, a power of ten; 0 where they are drawn as they are.
+
+    >>> _foot(np.array([17.7, 0.6, 2e-13])), _foot(np.array([17.7, 0.6])), _foot(np.array([17.7, 9.0]))
+    (0.01, 0.0, 0.0)
+    """
+    greatest, least = float(values.max()), float(values.min())
+    if not least * _FALLS < greatest:
+        return 0.0
+    seen = float(values[values > greatest * _NOTHING].min())
+    return 10.0 ** floor(log10(seen) - (seen > least))
 
 
 def draw_advice(advice: Advice, axes: Axes | None = None, **style: Any) -> list[Artist]:

@@ -12,12 +12,13 @@ from optlaws.motion.quantities import MILLI, QUANTITIES, UNITS
 from optlaws.plots.front import draw_time_front
 from optlaws.plots.law import four
 from optlaws.plots.report import draw_panels
-from optlaws.plots.style import BLUES, GREY, WARM, empty_figure, one_below_the_other, plot_style, titled
+from optlaws.plots.style import BLUES, GREY, WARM, empty_figure, new_figure, one_below_the_other, plot_style, titled
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import INSIDE_PIECE
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from optlaws.cycles.cycle import Cycle
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from optlaws.cycles.moves.time_front import TimeFront
     from optlaws.cycles.transitions import TransitionCam
     from optlaws.exports.export import Export
+    from optlaws.numbers import Array
 
 _ROOM = 1.08
 
@@ -73,11 +75,12 @@ def fronts_figure(fronts: Sequence[TimeFront], title: str) -> Figure:
     """A figure of least objectives over the time of a move, with a panel for each objective."""
     with plot_style():
         figure = empty_figure(7.2, 0.9 + 2.3 * len(fronts))
-        panels = figure.subplots(len(fronts), 1, sharex=True, squeeze=False)[:, 0]
+        together = len({front.durations[-1] for front in fronts}) == 1
+        panels = figure.subplots(len(fronts), 1, sharex=together, squeeze=False)[:, 0]
         for axes, front in zip(panels, fronts, strict=True):
             draw_time_front(front, axes)
             axes.legend(loc="upper right")
-            if axes is not panels[-1]:
+            if together and axes is not panels[-1]:
                 axes.set_xlabel("")
         return titled(figure, title)
 
@@ -127,12 +130,24 @@ def _of_cycle(cam: TransitionCam, cycle: Cycle, nu: int, size: float) -> tuple[A
 
 
 _INSIDE_RUN = 25
+_ROUNDED, _SHOWN = 1e-9, 1e-6  # of a peak: what is no difference, and the scale on which it is none
 _DESIGNED = {"color": GREY, "linewidth": 4.0, "alpha": 0.5, "label": "as designed"}  # wide, to be seen below the run
 
 
 def draw_export(export: Export, axes: Any = None, **style: Any) -> list[Artist]:
-    """Draw the exported motion and the executed motion over the master into four axes; return the artists."""
-    panels = four(one_below_the_other(axes, 4, 8.2))
+    """Draw the exported motion over the master into four axes, and beside it in four what the run differs by.
+
+    Eight new axes unless there are given ones, four for the motions alone; return the artists.
+    """
+    if axes is None:
+        with plot_style():
+            figure = new_figure(11.0, 8.2)
+            axes = figure.subplots(4, 2, sharex=True)
+            titled(figure, f"{export.format.name}: as designed, as run, and the difference")
+            figure.align_ylabels()
+    both = np.asarray(axes, dtype=object)
+    beside = list(both[:, 1]) if both.shape == (4, 2) else []
+    panels = list(both[:, 0]) if beside else four(axes)
     motion, run, units = export.motion, export.run, export.motion.units
     rate, by = (1.0, units.master) if units.rate is None else (units.rate, "s")
     joints = np.unique(np.clip([*run.breaks, *motion.breaks], motion.start, motion.stop))
@@ -142,9 +157,29 @@ def draw_export(export: Export, axes: Any = None, **style: Any) -> list[Artist]:
     looks: Any = (_DESIGNED, {"color": BLUES[3], "label": "as executed"} | style)
     artists: list[Artist] = []
     for nu, panel in enumerate(panels):
-        for values, look in zip((motion(places, nu), run(places, nu)), looks, strict=True):
-            artists += panel.plot(places, rate**nu * values, **look)
-        panel.set_ylabel(f"{QUANTITIES[nu]}, {units.slave}" + (f"/{by}{('', '²', '³')[nu - 1]}" if nu else ""))
-    panels[-1].set_xlabel(f"master, {units.master}")
+        curves = [rate**nu * np.asarray(each(places, nu)) for each in (motion, run)]
+        for values, look in zip(curves, looks, strict=True):
+            artists += panel.plot(places, values, **look)
+        unit = units.slave + (f"/{by}{('', '²', '³')[nu - 1]}" if nu else "")
+        panel.set_ylabel(f"{QUANTITIES[nu]}, {unit}")
+        if beside:
+            artists += _difference(beside[nu], places, curves, unit)
+    for column in (panels, beside):
+        for panel in column:
+            panel.ticklabel_format(axis="y", style="sci", scilimits=(-3, 5), useMathText=True)
+        if column:
+            column[-1].set_xlabel(f"master, {units.master}")
     panels[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False, fontsize=8.0)
     return artists
+
+
+def _difference(axes: Axes, places: Array, curves: Sequence[Array], unit: str) -> list[Artist]:
+    """What a run differs by from the motion as designed, with the greatest difference and its share of the peak."""
+    motion, run = curves
+    off, peak = run - motion, float(np.abs(motion).max())
+    most = float(np.abs(off).max())
+    share = f", {100.0 * most / peak:.2g} % of the peak" if peak else ""
+    axes.set_title(f"run less design: at most {most:.3g} {unit}{share}", fontsize=8.5)
+    if most <= _ROUNDED * peak:
+        axes.set_ylim(-_SHOWN * peak, _SHOWN * peak)
+    return list(axes.plot(places, off, color=WARM))

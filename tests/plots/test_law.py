@@ -7,7 +7,18 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from optlaws import Chebyshev, InputError, Problem, at_most, catalogue, pareto_front, smoothstep, synthesize, via
+from optlaws import (
+    Chebyshev,
+    InputError,
+    Problem,
+    at_most,
+    catalogue,
+    pareto_front,
+    proven_front,
+    smoothstep,
+    synthesize,
+    via,
+)
 from tests.internals.laws import law_panels
 
 
@@ -86,9 +97,26 @@ def test_limits_of_a_problem_are_drawn() -> None:
 def test_a_front_is_drawn_into_the_axes_given() -> None:
     front = pareto_front(Problem(order=3, basis=Chebyshev(5)), points=3)
     (panel,) = axes(1)
-    (line,) = front.plot(panel, color="green")
-    assert line.axes is panel
-    assert np.allclose(np.transpose(line.get_data()), front.values)
+    points, below, between = front.plot(panel, color="green")
+    assert {each.axes for each in (points, below, between)} == {panel}
+    assert np.allclose(np.transpose(points.get_data()), front.values)
+    assert points.get_linewidth() == 0.0
+    assert np.allclose(below.get_ydata(), [point.lower_bound for point in front])
+    ends = np.array(between.get_segments())
+    assert np.allclose(ends[:, :, 1], [[point.lower_bound, point.objective] for point in front])
+
+
+def test_fronts_in_one_panel_are_named_apart() -> None:
+    (panel,) = axes(1)
+    for order in (3, 4):
+        pareto_front(Problem(order=order, basis=Chebyshev(5)), points=3).plot(panel)
+    proven = proven_front(Problem(order=5, basis=Chebyshev(5)), between=(1.8, 1.9), gap=1e-3)
+    curve, _ = proven.plot(panel)
+    assert curve.get_linewidth() > 0.0
+    names = [text.get_text() for text in panel.get_legend().get_texts()]
+    assert names == ["order 3, Chebyshev(degree=5)", "no law below"] + [
+        f"order {order}, Chebyshev(degree=5)" for order in (4, 5)
+    ]
 
 
 def test_other_axes_are_refused() -> None:

@@ -31,7 +31,7 @@ def test_the_figures_name_what_stands_beside(name: str) -> None:
 
 def test_a_front_can_be_drawn_alone() -> None:
     front = pareto_front(Problem(order=3), ("B", "C"), points=3, between=(1.5, 1.8))
-    (line,) = draw_front(front)
+    line, *_ = draw_front(front)
     assert line.axes is not None
     assert line.axes.get_ylabel() == "peak acceleration C (dimensionless)"
     surface = pareto_front(Problem(order=3), ("B", "C", "J"), points=4, between=(1.5, 1.8))

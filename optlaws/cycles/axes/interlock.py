@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import hypot, sqrt
+from math import floor, hypot, sqrt
 from typing import Any, ClassVar
 
 import numpy as np
@@ -33,6 +33,7 @@ from optlaws.tolerances import CLEARANCE_SHARE, CYCLE_ROUNDING, INTERLOCK, SAME_
 
 #: small units by those of SI, and how many of them make one
 SMALL_UNITS = {unit_of(axis, nu): UNITS[axis][nu] for axis in UNITS for nu in (0, 1)}
+_THOUSANDTHS, _WHOLE = 1000.0, 1e-6  # of a small unit, and how near to a whole one is it
 _SQUARED_CLEARANCE = 1e-12  # of the square of a distance what `CLEARANCE_SHARE` is of it
 
 
@@ -89,15 +90,27 @@ class LeastClearance:
     def cells(self) -> list[Any]:
         """Label, status, clearance, bound, the small unit of both, angle in degrees, margin in milliseconds."""
         unit, size = SMALL_UNITS.get(self.unit, (self.unit, 1.0))
-        margin = None if self.margin is None else 1e3 * self.margin
-        return [self.interlock.label, self.status, size * self.clearance, size * self.bound, unit, self.angle, margin]
+        margin = None if self.margin is None else _known(1e3 * self.margin)
+        clearance, bound = self.clearance, self.bound
+        if self.unit in SMALL_UNITS:
+            clearance, bound = _known(size * clearance), _known(size * bound)
+        return [self.interlock.label, self.status, clearance, bound, unit, self.angle, margin]
 
     @property
     def text(self) -> str:
         """The condition as text, in millimetres or degrees."""
         _, _, clearance, _, unit, _, margin = self.cells
         early = "" if margin is None else f", {margin:.6g} ms early"
-        return sentence("{} at {}{}", Amount(round(clearance, 6) + 0.0, unit), Amount(self.angle, "deg"), early)
+        return sentence("{} at {}{}", Amount(clearance, unit), Amount(self.angle, "deg"), early)
+
+
+def _known(value: float) -> float:
+    """What a machine knows of a value in millimetres, degrees or milliseconds: thousandths, none of them too many.
+
+    >>> _known(20.24598), _known(8e-6), _known(31.0 - 1e-12)
+    (20.245, 0.0, 31.0)
+    """
+    return floor(_THOUSANDTHS * value + _WHOLE) / _THOUSANDTHS
 
 
 class AxisName(Text):

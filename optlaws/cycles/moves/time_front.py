@@ -308,7 +308,10 @@ class FrontOverTime(Declared, title="a front"):
         Listed(Text(), least=1, most=6), "What is least, each with a front.", example=["rms acceleration"]
     )
     longest: NumberOrQuantity | None = entry(
-        Measured("time", above=0.0), "The longest time; twice the least unless given.", default=None, example="0.3 s"
+        Measured("time", above=0.0),
+        "The longest time; unless given twice the least, or of a vibration in a file the first without.",
+        default=None,
+        example="0.3 s",
     )
     points: int = entry(_POINTS, "How many there are, each the same share longer than the last.", default=17)
 
