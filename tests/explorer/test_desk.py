@@ -97,10 +97,23 @@ def test_a_document_is_written_and_opened_again(page: Page, served: Server, tmp_
 
 def test_a_file_that_cannot_be_opened_says_why(page: Page, served: Server, tmp_path: Path) -> None:
     go(page, served.link(laws=[OPTIMAL], picture="residual"))
-    file = tmp_path / "wrong.toml"
-    file.write_text("[problem]\nordre = 4\n", "utf-8")
-    page.get_by_label("Files to open").set_input_files(file)
-    page.locator("#notice", has_text="ordre").wait_for()
+    for name, text, why in (
+        ("wrong.toml", "[problem]\nordre = 4\n", "ordre"),
+        ("fastest.toml", 'job = "fastest"\n', "Fastest needs moves, or axes, each with its segments"),
+        ("cam.toml", 'job = "cam"\n', "Cam needs a follower and a motion with its segments"),
+        ("study.json", '{"about": "optlaws document", "state": 5}', "holds no study"),
+        (
+            "laws.json",
+            '{"about": "optlaws document", "state": {"laws": [5]}}',
+            "a law needs a problem, a name or its pieces",
+        ),
+        ("words.json", '{"words": "optlaws document"}', "format of a law must be 1"),
+    ):
+        file = tmp_path / name
+        file.write_text(text, "utf-8")
+        page.get_by_label("Files to open").set_input_files(file)
+        page.locator("#notice", has_text=why).wait_for()
+    assert page.locator("#laws-view").is_visible()
 
 
 def test_a_law_is_read_in_the_units_of_its_machine(page: Page, served: Server) -> None:

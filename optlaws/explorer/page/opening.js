@@ -1,6 +1,6 @@
 // Files that the reader opens, from a dialog or dropped onto the page: the server reads problem files, laws and tables.
 
-import { FIRST, read, written } from "./state.js";
+import { whole } from "./state.js";
 import { html } from "./svg.js";
 
 const TAKEN = ".toml,.json,.csv,.txt,.tsv,.tab,.dat";
@@ -88,12 +88,20 @@ export async function textOf(file) {
 
 async function stateOf(file) {
   const text = await textOf(file);
-  if (file.name.toLowerCase().endsWith(".json") && text.includes(DOCUMENT)) {
-    const { state } = JSON.parse(text);
-    return read(written({ ...structuredClone(FIRST), ...state }));
-  }
+  const kept = file.name.toLowerCase().endsWith(".json") ? savedIn(text) : null;
+  if (kept) return whole(kept.state, file.name);
   const response = await fetch("api/open", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ name: file.name.slice(-200), text }) });
   const answer = await response.json();
   if (answer.error) throw new Error(answer.error);
-  return { ...structuredClone(FIRST), ...answer.state };
+  return whole(answer.state, file.name);
+}
+
+/** What a text holds if it is a document that the page saved, else null. */
+function savedIn(text) {
+  try {
+    const found = JSON.parse(text);
+    return found?.about === DOCUMENT ? found : null;
+  } catch {
+    return null; // the server says where it is no JSON
+  }
 }

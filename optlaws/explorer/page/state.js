@@ -20,6 +20,12 @@ export const FIRST = {
   damping: 0,
 };
 
+/** Whether the page can show a law. */
+function lawful(law) {
+  const { minimise = "", bounds = {} } = law?.problem ?? {};
+  return object(law) && object(law.problem ?? {}) && typeof minimise === "string" && object(bounds);
+}
+
 /** What a link may hold, and whether the page can show it; the server says what else is wrong with it. */
 const pair = (value) => Array.isArray(value) && value.length === 2 && value.every(Number.isFinite);
 const spectrum = (value) => object(value) && Array.isArray(value.raw) && value.raw.length > 1 && value.raw.every(pair);
@@ -55,7 +61,7 @@ export function read(fragment) {
       return undefined;
     }
   };
-  const laws = parts.getAll("law").map(parsed).filter(object).slice(0, 4);
+  const laws = parts.getAll("law").map(parsed).filter(lawful).slice(0, 4);
   if (laws.length) state.laws = laws.map(asNow);
   for (const [name, text] of parts) {
     const value = parsed(text);
@@ -66,6 +72,17 @@ export function read(fragment) {
   for (const name of ["name", "notes", "view", "picture"]) if (typeof state[name] !== "string") state[name] = FIRST[name];
   for (const [name, whole] of Object.entries(WHOLE)) if (name in state && !whole(state[name])) delete state[name];
   return state;
+}
+
+/** A state of a file with all that the page can show; an error names what it cannot. */
+export function whole(state, file) {
+  if (!object(state) || !Array.isArray(state.laws ?? [])) throw new Error(`${file} holds no study: open a document that this page saved`);
+  const given = { ...structuredClone(FIRST), ...state };
+  const found = read(written(given));
+  const name = Object.keys(WHOLE).find((one) => one in given && !(one in found));
+  if (name) throw new Error(`${file}: ${VIEWS[name]?.title ?? name} needs ${VIEWS[name]?.needs ?? "what the page wrote"}`);
+  if (given.laws.length && !given.laws.every(lawful)) throw new Error(`${file}: a law needs a problem, a name or its pieces`);
+  return found;
 }
 
 export class Study {
