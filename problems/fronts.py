@@ -37,6 +37,9 @@ if TYPE_CHECKING:
 _DRAWN_GAP = 1e-4  # of an objective: a gap that no picture shows
 _FEW = 5
 CONSTANTS = ("B", "C", "D", "J")
+#: what is kept of a solution, and further proofs that some have
+_RECORDED = ("status", "objective", "lower_bound", "best_possible", "constants", "z", "law", "problem", "certificate")
+_FURTHER = ("power_certificate", "peak_certificate")
 HEADINGS = (*CONSTANTS, "lower bound", "gap", "best possible", "status")
 FAMILIES = {name: SavinFamily.of(name) for name in ("I", "II", "III", "IV")}
 
@@ -131,25 +134,25 @@ def _fill(page: Page, drawn: Fronts) -> None:
 
 
 def _json(about: str, drawn: Fronts) -> str:
+    """The fronts with their solutions and proofs for `optlaws verify`, a line for each point."""
     fronts = []
     for picture, some in drawn:
         for curve, front in zip(picture.front, some, strict=True):
-            head = json.dumps({"figure": picture.name, "front": curve.label, "over": list(front.over)})
-            points = ",\n".join(
-                json.dumps(
-                    {
-                        "problem": point.problem.to_dict(),
-                        "values": values,
-                        "lower_bound": point.lower_bound,
-                        "status": point.status.value,
-                        "z": None if point.z_powers is None else list(point.z_powers),
-                    }
-                )
-                for point, values in zip(front, front.values.tolist(), strict=True)
+            data = front.to_dict()
+            head = json.dumps(
+                {"about": f"{picture.name}: {curve.label}", "over": data["over"], "values": data["values"]}
             )
+            points = ",\n".join(json.dumps(_record(point)) for point in data["points"])
             fronts.append(f'{head[:-1]}, "points": [\n{points}\n]}}')
     top = json.dumps({"about": f"{about}; {MARK}"})[:-1]
     return f'{top}, "fronts": [\n' + ",\n".join(fronts) + "\n]}\n"
+
+
+def _record(point: dict[str, Any]) -> dict[str, Any]:
+    """A solution with its proofs, without what differs between runs."""
+    return {name: point[name] for name in _RECORDED} | {
+        name: point[name] for name in _FURTHER if point.get(name) is not None
+    }
 
 
 Ends = tuple[float, float]

@@ -16,9 +16,14 @@ RESULTS = ROOT / "results" / "fronts"
 @pytest.mark.parametrize("place", [0, 100, 200, 300])
 def test_points_can_be_solved_again(place: int) -> None:
     fronts = json.loads((RESULTS / "fronts.json").read_text("utf-8"))["fronts"]
-    points = [point for front in fronts for point in front["points"] if front["over"][-1] != "D"]
-    solution = synthesize(Problem.from_dict(points[place % len(points)]["problem"]))
-    assert solution.objective == pytest.approx(points[place % len(points)]["values"][-1], rel=1e-8)
+    known = [
+        each
+        for front in fronts
+        if front["over"][-1] != "D"
+        for each in zip(front["points"], front["values"], strict=True)
+    ]
+    point, values = known[place % len(known)]
+    assert synthesize(Problem.from_dict(point["problem"])).objective == pytest.approx(values[-1], rel=1e-8)
 
 
 @pytest.mark.parametrize("name", ["c-over-b-by-order", "d-over-c"])
