@@ -112,10 +112,10 @@ def test_a_tolerance_that_is_too_small_is_named_with_one_that_is_enough() -> Non
     small = old.bettered(0.02)
     assert [part.law for part in small.moves] == ["simple harmonic"] * 2
     for part in small.moves:
-        assert part.kept == "no law of order 3 and degree 15 is so near"
-        assert 0.02 < part.needs < 35.0 / 4.0
-        assert "within" in small.why_kept(part)
-    enough = old.bettered(max(part.needs for part in small.moves))
+        assert part.reason == "no law of order 3 and degree 15 is so near"
+        assert 0.02 < part.sufficient_tolerance < 35.0 / 4.0
+        assert "within" in small.reason_in_words(part)
+    enough = old.bettered(max(part.sufficient_tolerance for part in small.moves))
     assert all(gain.share(2) < 0.0 for gain in enough.gains(old))
 
 
@@ -123,8 +123,8 @@ def test_a_valve_without_a_dwell_is_bettered_within_the_tolerance_that_is_named(
     """Its acceleration jumps at the foot, where new laws begin without: that takes some of the lift."""
     old = split_table(*valve_lift(9.0, 335.0, 575.0))
     small = old.bettered(0.05)
-    assert all(part.solution is None and part.kept for part in small.moves)
-    (needs,) = [part.needs for part in small.moves if part.needs]
+    assert all(part.solution is None and part.reason for part in small.moves)
+    (needs,) = [part.sufficient_tolerance for part in small.moves if part.sufficient_tolerance]
     enough = old.bettered(needs)
     assert all(-0.1 < gain.share(2) < 0.0 and gain.deviation <= needs for gain in enough.gains(old))
     cycle = enough.cycle(speed="2000 rpm")

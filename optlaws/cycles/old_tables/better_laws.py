@@ -106,19 +106,19 @@ def bettered(stretches: Sequence[Stretch], room: float, order: int, degree: int)
     moves.sort(key=lambda i: -_acceleration(stretches[i]))
     # what these have where they go on into other moves is that of their old laws
     as_before = {i for i in moves if all(stretches[j % count].line is not None for j in (i - 1, i + 1))}
-    kept = dict[int, Stretch]()
+    reasons = dict[int, Stretch]()
     while True:
-        found, known = list(stretches), set(as_before)
+        better, known = list(stretches), set(as_before)
         for i in moves:
-            part = _better(found, known, i, room, order, degree, as_before=i in as_before)
+            part = _better(better, known, i, room, order, degree, as_before=i in as_before)
             # the first reason is that of its own tolerance, not of what its neighbours have
-            found[i] = kept.setdefault(i, part) if part.kept else part
+            better[i] = reasons.setdefault(i, part) if part.reason else part
             known.add(i)
-            if part.kept and i not in as_before:
+            if part.reason and i not in as_before:
                 as_before.add(i)
                 break
         else:
-            return found
+            return better
 
 
 def _acceleration(part: Stretch) -> float:
@@ -126,7 +126,7 @@ def _acceleration(part: Stretch) -> float:
 
 
 def _better(
-    found: Sequence[Stretch],
+    stretches: Sequence[Stretch],
     known: Container[int],
     number: int,
     room: float,
@@ -135,15 +135,15 @@ def _better(
     *,
     as_before: bool,
 ) -> Stretch:
-    """A move with a better law, between those that are known of others; or why it keeps its own."""
-    part = found[number]
+    """A move with a better law, between the known ones of others; or why it keeps its law."""
+    part = stretches[number]
     old, share = law_of_move(part), room / abs(part.stroke)
     what = nothing_to_better(old)
     if what:
-        return replace(part, kept=f"it is {what}")
-    ends = _ends(found, known, number, order, as_before=as_before)
+        return replace(part, reason=f"it is {what}")
+    ends = _ends(stretches, known, number, order, as_before=as_before)
     if any(abs(value) >= old.constants.C.value * (1.0 - _LEAST_GAIN) for state in ends for value in state[2:3]):
-        return replace(part, kept="its acceleration is greatest where it goes on into the next move")
+        return replace(part, reason="its acceleration is greatest where it goes on into the next move")
     try:
         solution = _least(old, share, order, degree, ends)
         why = f"none of order {order} and degree {degree} so near has less"
@@ -153,7 +153,7 @@ def _better(
         solution, why = None, f"the search for a law of order {order} and degree {degree} so near failed"
     if solution is not None:
         return replace(part, law=solution.law, solution=solution, peaks=())
-    return replace(part, kept=why, needs=abs(part.stroke) * _enough(old, share, order, degree, ends))
+    return replace(part, reason=why, sufficient_tolerance=abs(part.stroke) * _enough(old, share, order, degree, ends))
 
 
 def nothing_to_better(old: MotionLaw) -> str:
@@ -168,24 +168,24 @@ def nothing_to_better(old: MotionLaw) -> str:
     return "at constant acceleration, without jerk" if old.constants.J.value == 0.0 else ""
 
 
-def _ends(found: Sequence[Stretch], known: Container[int], number: int, order: int, *, as_before: bool) -> Ends:
+def _ends(stretches: Sequence[Stretch], known: Container[int], number: int, order: int, *, as_before: bool) -> Ends:
     """The states at the ends of a move: position and velocity, and as many further derivatives as are known."""
-    part = found[number]
+    part = stretches[number]
     old, length = law_of_move(part), part.stop - part.start
     same = _SAME * old.constants.B.value
     states = []
-    for place, own in enumerate(old.boundary_values(max(order, 2))):
-        other = (number - 1 + 2 * place) % len(found)
-        beside = found[other]
+    for place, state in enumerate(old.boundary_values(max(order, 2))):
+        other = (number - 1 + 2 * place) % len(stretches)
+        beside = stretches[other]
         if beside.line is not None:
             goes_on = [0.0, beside.line * length / part.stroke, *[0.0] * order]
         else:
             ratio, size = length / (beside.stop - beside.start), beside.stroke / part.stroke
             values = law_of_move(beside).boundary_values(max(order, 2))[1 - place]
             goes_on = [size * ratio**nu * value for nu, value in enumerate(values)]
-        velocity = 0.0 if abs(own[1]) <= same else own[1]
+        velocity = 0.0 if abs(state[1]) <= same else state[1]
         corner = abs(velocity - goes_on[1]) > same
-        further = own[2:] if corner or (as_before and beside.line is None) else goes_on[2:]
+        further = state[2:] if corner or (as_before and beside.line is None) else goes_on[2:]
         open_end = corner or not (beside.line is not None or as_before or other == number or other in known)
         states.append((float(place), velocity, *([] if open_end and order <= _FREE else further))[:order])
     return states[0], states[1]

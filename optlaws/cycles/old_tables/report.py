@@ -43,9 +43,9 @@ class OldTableReport:
     def unchanged(self) -> Iterator[str]:
         """Moves that keep their laws, and why."""
         for part, was in self._pairs:
-            if part.law is was.law and part.kept:
+            if part.law is was.law and part.reason:
                 yield sentence(
-                    "the {} from {} keeps its law: {}", part.kind, f"{part.start:g}", self.table.why_kept(part)
+                    "the {} from {} keeps its law: {}", part.kind, f"{part.start:g}", self.table.reason_in_words(part)
                 )
 
     @property
@@ -116,7 +116,11 @@ class OldTableReport:
                 "law": part.law if part.law is None or isinstance(part.law, str) else part.law.to_dict(),
                 "nearest": part.nearest or None,
                 "distance": part.distance if part.nearest else None,
-                **({"kept": part.kept, "needs": part.needs or None} if part.kept else {}),
+                **(
+                    {"reason": part.reason, "sufficient_tolerance": part.sufficient_tolerance or None}
+                    if part.reason
+                    else {}
+                ),
             }
             for part in (new or old).stretches
         ]

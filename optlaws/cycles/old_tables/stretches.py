@@ -49,7 +49,7 @@ class Stretch:
         How far the points are from that at most, in units of the table.
     solution
         Of a better law: the solution that it is from, with its certificate.
-    kept, needs
+    reason, sufficient_tolerance
         Of a move that keeps its law where a better one was sought: why, and a tolerance within which one exists; 0
         where none was found.
     peaks
@@ -66,8 +66,8 @@ class Stretch:
     nearest: str = ""
     distance: float = 0.0
     solution: Solution | None = None
-    kept: str = ""
-    needs: float = 0.0
+    reason: str = ""
+    sufficient_tolerance: float = 0.0
     peaks: tuple[PeakInterval, ...] = ()
 
     @property

@@ -153,7 +153,7 @@ class OldTable:
         A new law begins and ends with the position, the velocity and, from order 3 on, the acceleration of the old one,
         so that moves meet as before, also where they turn or go on. A move keeps its law where no law of this order and
         degree within the tolerance has less acceleration, and where it has no acceleration or no jerk, as one at
-        constant velocity: `kept` of its stretch says why, and `needs` a tolerance within which one has less.
+        constant velocity: `reason` of its stretch says why, and `sufficient_tolerance` within what one has less.
 
         Parameters
         ----------
@@ -333,11 +333,12 @@ class OldTable:
             return sentence("{} above {}, how much cannot be known from this table", QUANTITIES[nu], least)
         return sentence("{} {} to {}", QUANTITIES[nu], f"{low:.4g}", most)
 
-    def why_kept(self, part: Stretch) -> str:
+    def reason_in_words(self, part: Stretch) -> str:
         """Why a move keeps its law, with a tolerance within which one has less acceleration."""
-        return (
-            sentence("{}; within {} one has", part.kept, Amount(part.needs, self.unit, 3)) if part.needs else part.kept
-        )
+        if not part.sufficient_tolerance:
+            return part.reason
+        enough = Amount(part.sufficient_tolerance, self.unit, 3)
+        return sentence("{}; within {} one has less acceleration", part.reason, enough)
 
     def law_in_words(self, part: Stretch) -> str:
         """The standard law of a move, or the nearest standard law, with the deviation of the points from it."""

@@ -134,7 +134,7 @@ def move(request: CycleRequest) -> dict[str, Any]:
         raise InputError(f"the table has {len(old.moves)} moves, and no move {number}")
     new = [part for part in _bettered(replace(entries, speed=None)) if part.law is not None][number]
     if new.solution is None:
-        return {"law": None, "kept": sentence("keeps its law: {}", old.why_kept(new))}
+        return {"law": None, "kept": sentence("keeps its law: {}", old.reason_in_words(new))}
     return {"law": new.solution.to_dict()}
 
 
