@@ -215,7 +215,7 @@ def test_views_and_units_chosen_while_the_server_is_away_are_shown_when_it_is_ba
     page: Page, served: Server, watch: Watch
 ) -> None:
     def back() -> None:
-        page.locator("#notice", has_text="The server does not answer").wait_for()
+        page.locator("#work", has_text="The server does not answer").wait_for()
         assert all("ERR_INTERNET_DISCONNECTED" in text for text in watch.complaints)
         watch.complaints.clear()
         page.context.set_offline(False)
@@ -226,7 +226,7 @@ def test_views_and_units_chosen_while_the_server_is_away_are_shown_when_it_is_ba
     back()
     page.locator("#motion .title", has_text="mm/s").wait_for()
     settle(page)
-    assert not page.locator("#notice").is_visible()
+    assert not page.locator("#work").is_visible()
     page.context.set_offline(True)
     page.get_by_text("Settings", exact=True).click()
     page.get_by_label("length", exact=True).select_option("in")
@@ -391,8 +391,10 @@ def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Serv
 def test_a_question_that_takes_long_can_be_stopped_and_undone(page: Page, served: Server) -> None:
     go(page, served.link(laws=[at_velocity(1.7)], picture="residual"))
     page.get_by_label("Objective as a formula").fill("peak(cos(7*c)*sin(3*b))")
+    plane = page.locator("#plane").bounding_box()
     page.get_by_label("Objective as a formula").press("Enter")
-    page.locator("#notice", has_text="optimal laws and their bounds · 1 s").wait_for(timeout=15_000)
+    page.locator("#work", has_text="optimal laws and their bounds · 1 s").wait_for(timeout=15_000)
+    assert page.locator("#plane").bounding_box() == plane
     page.get_by_role("button", name="Stop").click()
     settle(page)
     assert "no answer" in page.locator("#trust").inner_text()
@@ -400,6 +402,32 @@ def test_a_question_that_takes_long_can_be_stopped_and_undone(page: Page, served
     page.get_by_role("button", name="Undo").click()
     settle(page)
     assert "proven optimal" in page.locator("#trust").inner_text()
+
+
+SLOW_ANSWERS = """async () => {
+  window.fetch = (path, { body, signal }) => new Promise((resolve, reject) => {
+    setTimeout(() => resolve({ json: async () => JSON.parse(body) }), 1300);
+    signal.addEventListener("abort", () => reject(new DOMException("", "AbortError")));
+  });
+  const { Latest } = await import("/latest.js");
+  window.answers = [];
+  const latest = new Latest("slow", (answer) => window.answers.push(answer), (error) => { throw error; });
+  for (let i = 1; i <= 20; i += 1) setTimeout(() => latest.ask(i), 100 * i);
+}"""
+
+
+def test_amid_a_drag_slow_answers_are_shown_and_once_it_rests_the_last(page: Page, served: Server) -> None:
+    page.clock.install()
+    page.goto(f"http://{served.host}/proof.html")
+    page.evaluate(SLOW_ANSWERS)
+    shown = []
+    for _ in range(45):
+        page.clock.run_for(100)
+        shown.append(page.evaluate("() => [...window.answers]"))
+    # the first is answered after 1.3 s, amid the drag; the one after it gives way 0.4 s after the drag, at 2.4 s
+    assert shown[20] == [1]
+    assert shown[-1] == [1, 20]
+    assert shown[39] == [1, 20]
 
 
 @pytest.mark.sample(3)

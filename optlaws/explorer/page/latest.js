@@ -2,7 +2,8 @@
 // stopped or given more time; while the server is away the last one is asked again.
 
 const DIM = 400; // ms after which what is shown is dimmed: it is not of now
-const SLOW = 1000; // ms after which a question can be stopped, and gives way to a newer one
+const SLOW = 1000; // ms after which a question can be stopped
+const RESTED = 400; // ms without a newer question after which a slow one gives way to the last
 const AGAIN = 1500; // ms between attempts while the server does not answer
 const PATIENCE = 120; // s that a question has where the reader lets it go on
 
@@ -92,6 +93,7 @@ export class Latest {
   #flight = null;
   #waiting = null;
   #late = null;
+  #resting = null;
   lost = false;
   slow = false;
   since = 0; // when the question in flight was asked
@@ -123,8 +125,21 @@ export class Latest {
   ask(question, patience = null) {
     this.#late = null;
     this.#waiting = { question, patience };
-    if (this.slow) this.#flight.abort();
+    this.#rest();
     if (this.#flight === null) this.#next();
+  }
+
+  /** Amid a drag a slow question is answered, so that laws are seen; once the drag rests it gives way to the last one. */
+  #rest() {
+    clearTimeout(this.#resting);
+    this.#resting = setTimeout(() => {
+      this.#resting = null;
+      this.#giveWay();
+    }, RESTED);
+  }
+
+  #giveWay() {
+    if (this.slow && this.#waiting !== null && this.#resting === null) this.#flight.abort();
   }
 
   /** Nobody waits for the answer any more. */
@@ -141,11 +156,14 @@ export class Latest {
   async #next() {
     while (this.#waiting !== null) {
       const { question, patience } = this.#waiting;
-      this.#waiting = null;
+      this.#waiting = this.#late = null;
       this.#flight = new AbortController();
       this.since = performance.now();
       changed();
-      const timer = setTimeout(() => this.#state({ slow: true }), SLOW);
+      const timer = setTimeout(() => {
+        this.#state({ slow: true });
+        this.#giveWay();
+      }, SLOW);
       try {
         const answer = await ask(this.#path, question, patience, this.#flight.signal);
         this.#state({ lost: false, slow: false });

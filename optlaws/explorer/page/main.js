@@ -15,11 +15,13 @@ import { VIEWS } from "./views.js";
 
 restore();
 
-function notice(text, ...buttons) {
-  const root = document.getElementById("notice");
-  root.replaceChildren(text, ...buttons);
-  root.hidden = !text;
+function fill(name, ...parts) {
+  const root = document.getElementById(name);
+  root.replaceChildren(...parts);
+  root.hidden = !parts[0];
 }
+
+const notice = (...parts) => fill("notice", ...parts);
 
 const LATER = 2000; // ms after the start: what checks proofs is there when the server is away
 
@@ -36,7 +38,6 @@ const LONG = {
   "api/old-move": "a better law near the old one",
 };
 
-let working = false;
 let ticking = null;
 
 /** What is computed for long, and for how many seconds. */
@@ -49,15 +50,17 @@ function computing(slow) {
   return [" ", ...names.flatMap((name) => [html("span", { text: name }), " · "]), seconds];
 }
 
-/** What the server is at, where the reader should know: it is away, it computes for long, it had too little time. */
+/** What the server is at, where the reader should know: it is away, it computes for long, it had too little time. It stands
+    beside the tools: what comes and goes amid a drag must not move the page. */
 function work({ lost, slow, late }) {
+  const say = (words, ...buttons) => fill("work", html("span", {}, ...words), ...buttons);
   const button = (text, act) => html("button", { type: "button", text, onclick: act });
   clearInterval(ticking);
-  if (lost) notice("The server does not answer. This page keeps the study, and goes on as soon as `optlaws explore` runs again.");
-  else if (slow.length) notice("Computing …", ...computing(slow), button("Stop", () => slow.forEach((one) => one.stop())));
-  else if (late.length) notice("This is not computed within 4 s.", button("Go on for 2 minutes", () => late.forEach((one) => one.goOn())));
-  else if (working) notice("");
-  working = lost || slow.length > 0 || late.length > 0;
+  if (lost) say(["The server does not answer. This page keeps the study, and goes on as soon as `optlaws explore` runs again."]);
+  else if (slow.length) say(["Computing …", ...computing(slow)], button("Stop", () => slow.forEach((one) => one.stop())));
+  else if (late.length) say(["This is not computed within 4 s."], button("Go on for 2 minutes", () => late.forEach((one) => one.goOn())));
+  else fill("work");
+  document.getElementById("work").classList.toggle("lost", lost);
 }
 
 /** When something happened last. */
