@@ -64,6 +64,9 @@ def test_two_movers_are_lines_and_polynomials_over_a_track(prefix: str, tmp_path
         read_cycle_table(file, unit="mm", master="mm", turn="1600 mm")
     file.write_text(movers(prefix).replace("MOTIONPOINTTYPE_MOTION", "MOTIONPOINTTYPE_IGNORE", 1))
     assert len(read_cycle_table(file, unit="mm", master="mm").places) == 8
+    (tmp_path / "none.st").write_text(file.read_text().replace("TYPE_MOTION;", "TYPE_IGNORE;"))
+    with pytest.raises(InputError, match=r"none\.st holds no points"):
+        read_cycle_table(tmp_path / "none.st")
     part = read_cycle_table(file, unit="mm", master="mm", rows=3)
     assert [each.stop for each in part.stretches] == [350.0]  # one polynomial goes on in the next
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager
 from math import isfinite
 from struct import pack, unpack
 from xml.etree import ElementTree as ET
@@ -67,7 +66,9 @@ def decoded(content: str, cam: str | None = None) -> TablePoints | None:
             _check_count(text, len(records))
             skipped = [record.pop("skip", TextCell("", 0)).text.upper() for record in records]
             pairs = zip(records, skipped, strict=True)
-            return _of_records(layout, [record for record, skip in pairs if not skip.endswith(("IGNORE", "TRUE"))])
+            records = [record for record, skip in pairs if not skip.endswith(("IGNORE", "TRUE"))]
+        if len(records) > 1:
+            return _of_records(layout, records)
     return _of_arrays(text)
 
 
@@ -207,8 +208,8 @@ def _check_count(text: str, count: int) -> None:
 
 
 def _of_records(layout: FieldLayout, records: Sequence[_Record]) -> TablePoints:
-    for record in records:
-        line = next(iter(record.values())).line
+    lines = [next(iter(record.values())).line for record in records]
+    for record, line in zip(records, lines, strict=True):
         missing = records[0].keys() - record.keys()
         if missing or record.keys() - records[0].keys():
             names = {role: name for name, role in layout.roles.items()}
@@ -217,9 +218,9 @@ def _of_records(layout: FieldLayout, records: Sequence[_Record]) -> TablePoints:
                 f"line {line}: an element of {layout.name} has {'no' if missing else 'a'} {fields}, unlike the first: "
                 "mend the element"
             )
-    roles, lines = records[0].keys(), [next(iter(record.values())).line for record in records]
+    roles = records[0].keys()
     if "x" not in roles:
-        return TablePoints.of_pieces(list(_pieces(layout, records)), layout.name, lines=lines)
+        return TablePoints.of_pieces(list(_pieces(layout, records, lines)), layout.name, lines=lines)
     points = list(map(_point, records))
     profiles = [_profile(layout, record) for record in records]
     straight = "type" in roles and all(profile and degree_of(profile) == 1 for profile in profiles[:-1])
@@ -250,17 +251,12 @@ def _profile(layout: FieldLayout, record: _Record) -> str | None:
     return (layout.profiles or {}).get(text, re.sub(r"^(?:.*[.#])?(?:MOTIONFUNCTYPE_)?", "", text)) or None
 
 
-def _in_line(record: _Record) -> AbstractContextManager[None]:
-    """A context that adds an element's line to errors in it."""
-    return located(f"line {next(iter(record.values())).line}")
-
-
-def _pieces(layout: FieldLayout, records: Sequence[_Record]) -> Iterator[CurvePiece]:
+def _pieces(layout: FieldLayout, records: Sequence[_Record], lines: Sequence[int]) -> Iterator[CurvePiece]:
     begin = 0.0
-    for record in records:
+    for record, line in zip(records, lines, strict=True):
         numbers = {role: value.number() for role, value in record.items() if role != "type"}
         start, stop = numbers.get("x0", begin), numbers["x1"]
-        with _in_line(record):
+        with located(f"line {line}"):
             if "c0" in numbers:
                 yield powers(start, stop, [numbers[f"c{n}"] for n in range(8) if f"c{n}" in numbers])
             else:
@@ -364,7 +360,7 @@ def _of_cam_profile(rows: Sequence[Sequence[TextCell]]) -> TablePoints:
             raise InputError(f"line {row[0].line}: an element of CAM_PROFILE holds no finite number")
     pieces = []
     for row, (x, y, *constants), (stop, *_) in zip(rows, values, values[1:], strict=False):
-        with _in_line({"x": row[0]}):
+        with located(f"line {row[0].line}"):
             pieces.append(powers(x, stop, [y + constants[0], *constants[1:]]))
     if len(values) < FEWEST_POINTS:
         return TablePoints.of_pieces(pieces, "Rockwell CAM_PROFILE", lines=[row[0].line for row in rows])
@@ -396,6 +392,6 @@ def _of_source(text: str, named: dict[str, tuple[str, int, str]]) -> TablePoints
     rows = [flat[i : i + width] for i in range(0, len(flat), width)]
     pieces = []
     for low, high, row, cell in zip(breaks, breaks[1:], rows, cells["breaks"], strict=False):
-        with _in_line({"x": cell}):
+        with located(f"line {cell.line}"):
             pieces.append(powers(low, high, row))
     return TablePoints.of_pieces(pieces, "breaks and coefficients", lines=[cell.line for cell in cells["breaks"]])
