@@ -26,6 +26,10 @@ CUT = """() => [...document.querySelectorAll(".view:not([hidden]) :is(input[type
   const sides = parseFloat(style.paddingLeft) + parseFloat(style.paddingRight);
   return one.checkVisibility() && one.title !== text && pen.measureText(text).width > one.clientWidth - sides + 0.5;
 }).map((one) => one.getAttribute("aria-label"))"""
+#: pictures with one tick beside them, which is no scale
+UNSCALED = """() => [...document.querySelectorAll(".view:not([hidden]) svg")].filter((one) =>
+  one.checkVisibility() && one.querySelectorAll(".frame > .tick[text-anchor=end]").length === 1,
+).map((one) => one.getAttribute("aria-label"))"""
 LAWS = [OPTIMAL, {"name": "modified sine"}]
 
 
@@ -59,6 +63,7 @@ def test_every_view_keeps_wcag_cuts_no_field_and_says_the_numbers_of_its_picture
         settle(page)
         assert violations(page) == [], view
         assert page.evaluate(CUT) == [], view
+        assert page.evaluate(UNSCALED) == [], view
         for picture in page.locator(f"#{view}-view svg[role=img]").all():
             if picture.is_visible():
                 label = picture.get_attribute("aria-label") or ""

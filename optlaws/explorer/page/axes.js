@@ -9,15 +9,17 @@ export function scale([low, high], [start, stop]) {
   return to;
 }
 
-/** About `count` round values between low and high. */
+/** About `count` round values between low and high, two at least: one alone is no scale. */
 export function ticks(low, high, count) {
+  if (!(high > low)) return [low];
   const rough = (high - low) / count;
   const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((factor) => factor * power).find((size) => size >= rough * 0.999);
-  const first = Math.ceil(low / step - 1e-9);
-  const found = [];
-  for (let i = first; i * step <= high + 1e-9 * step; i += 1) found.push(Number((i * step).toPrecision(10)));
-  return found;
+  const steps = [0.1, 0.2, 0.5, 1, 2, 5, 10].map((factor) => factor * power);
+  const ends = (step) => [Math.ceil(low / step - 1e-9), Math.floor(high / step + 1e-9)];
+  const coarsest = steps.find((size) => size >= rough * 0.999);
+  const step = steps.findLast((size) => size <= coarsest && ends(size)[1] > ends(size)[0]);
+  const [first, last] = ends(step);
+  return Array.from({ length: last - first + 1 }, (_, i) => Number(((first + i) * step).toPrecision(10)));
 }
 
 export function label(value) {
