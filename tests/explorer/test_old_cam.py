@@ -94,6 +94,10 @@ def test_better_laws_are_the_library_s_and_so_are_their_files(served: Server, tu
     off = next(curve for curve in answer["panels"][1]["series"] if curve["name"] == "new law")
     assert max(map(abs, off["values"])) == pytest.approx(gain.deviation, abs=1e-4)
     assert gain.deviation <= 0.1 * (1.0 + 1e-6)
+    small = served.ask("old-move?patience=20", {"study": STUDY | {"within": 1e-4}, "axis": 0})
+    assert small["law"] is None
+    reason = "keeps its law: none of order 3 and degree 15 so near has less; within 0.0004 mm one has less acceleration"
+    assert written(small["kept"]) == reason
     cycle = better.cycle(speed="200 rpm")
     results = served.ask("export", {"kind": "csv", "view": "old", "request": old, "points": 91})
     assert results["text"] == cycle.export("csv", points=91).text

@@ -136,7 +136,7 @@ export class View {
       this.#draw();
       this.#ask();
     } });
-    const missing = moves.map((name, i) => [name, this.#found[i]]).filter(([, one]) => !one?.law).map(([name, one]) => `${name}: ${one ? one.kept ?? written(one.refused.reason) : "…"}`);
+    const missing = moves.map((name, i) => [name, this.#found[i]]).filter(([, one]) => !one?.law).map(([name, one]) => `${name}: ${one ? written(one.kept ?? one.refused.reason) : "…"}`);
     const found = this.#laws.length ? [...(gains ? [table("Better laws within the tolerance", gains.headings, gains.rows)] : []), checking()] : [];
     renew(this.#gains, html("p", { class: "quiet", text: words }), ...(this.#wanted ? [...found, html("p", { class: "facts", text: missing.join(" · ") })] : [button]));
   }
