@@ -378,7 +378,7 @@ def read_cycle_table(
         given.
     columns
         Columns that hold the master and the position, by headings or numbers from 1; behind these the derivatives of
-        the position by the master, or by the second, in order.
+        the position by the master, or, of 12 points or more, by the second.
     unit, master
         The units of the positions and of the master: "mm", "deg", "s" and the like, or "0.01 mm" where numbers count
         these. What the file says unless given, else "mm", and "deg", "turn" or "rad" by the master's length. A master
