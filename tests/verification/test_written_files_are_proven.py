@@ -23,7 +23,8 @@ Entries: TypeAlias = "dict[str, Any]"
 PARTLY = re.compile(
     r"not checked (at [^:]* s: )?"
     r"(the best possible( time)?: .* in doubles|the file: results without proofs|the arrays: |the law: "
-    r"|the laws of the cycle: .* in doubles|the numbers: .* in doubles|lower_bound: .* do not prove alone)"
+    r"|the laws of the (cycle|motion): .* in doubles|the numbers: .* in doubles|lower_bound: .* do not prove alone"
+    r"|best.lower_bound: .* not linear in them)"
 )
 #: exit codes of a problem that is refused, has no law, or whose solver stopped
 REFUSED = {2, 3, 4}
@@ -237,7 +238,12 @@ def fastest_cycle(numbers: Numbers) -> Entries:
 
 def cam(numbers: Numbers) -> Entries:
     law = of(numbers, {}, {"law": "cycloidal"})
+    curvature = of(numbers, {}, {"radius_of_curvature": "15 mm"})
+    sought = of(numbers, {}, {"pressure_angle": "25 deg"}, {"best": "laws", "pressure_angle": "25 deg", **curvature})
+    forces = of(numbers, {}, {"forces": {"irregularity": 0.05}})
     return {
+        **sought,
+        **forces,
         "job": "cam",
         "speed": "200 rpm",
         "rows": 13,
