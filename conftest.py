@@ -17,6 +17,10 @@ from xdist.remote import Producer
 from xdist.scheduler import LoadFileScheduling
 
 from tests.documents import documents
+from tests.internals.cli import output
+
+#: on a slow machine commands would say every ten seconds what they are doing, beside the answers that tests compare
+output.BETWEEN_LINES = 3600.0
 
 #: the gallery's examples are run when the pages are made, and their copies stand beside them
 collect_ignore_glob = ["docs/examples/*.py", "docs/gallery/*", "docs/_build/*"]

@@ -27,7 +27,9 @@ if TYPE_CHECKING:
 
 _WIDEST = 10_000
 _DIGITS = 7
-_PATIENCE, _REFRESHED, _SECONDS = 1.0, 0.2, 10.0  # s, of what is shown while a command works
+#: s, until a terminal shows that a command works, and between two lines that say so elsewhere
+PATIENCE, BETWEEN_LINES = 1.0, 10.0
+_REFRESHED = 0.2
 
 
 @dataclass(frozen=True)
@@ -225,7 +227,7 @@ def busy(text: str) -> Iterator[None]:
 
 def _changing_line(ended: Event, latest: list[str]) -> None:
     """The current step with its time, once it takes long; what else goes to stderr is above it."""
-    if ended.wait(_PATIENCE):
+    if ended.wait(PATIENCE):
         return
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
@@ -239,6 +241,6 @@ def _changing_line(ended: Event, latest: list[str]) -> None:
 def _lines(ended: Event, latest: list[str]) -> None:
     """The current step, in a line each time."""
     for number in count(1):
-        if ended.wait(_SECONDS):
+        if ended.wait(BETWEEN_LINES):
             return
-        print(f"{latest[0]}, {number * _SECONDS:.0f} s so far", file=sys.stderr)
+        print(f"{latest[0]}, {number * BETWEEN_LINES:.0f} s so far", file=sys.stderr)

@@ -96,7 +96,7 @@ def test_a_command_that_takes_long_says_what_it_is_doing(
     said = stream()
     monkeypatch.setattr(sys, "stderr", said)
     monkeypatch.setenv("TERM", "xterm")
-    for name in ("_PATIENCE", "_REFRESHED", "_SECONDS"):
+    for name in ("PATIENCE", "_REFRESHED", "BETWEEN_LINES"):
         monkeypatch.setattr(output, name, 0.01)
     with output.busy("optlaws: slide.toml"):
         steps.step("axis slide")
@@ -108,8 +108,8 @@ def test_a_command_that_takes_long_says_what_it_is_doing(
     before = said.getvalue()
     sleep(0.05)
     assert said.getvalue() == before
-    monkeypatch.setattr(output, "_PATIENCE", 60.0)
-    monkeypatch.setattr(output, "_SECONDS", 60.0)
+    monkeypatch.setattr(output, "PATIENCE", 60.0)
+    monkeypatch.setattr(output, "BETWEEN_LINES", 60.0)
     with output.busy("quick"):
         steps.step("axis slide")
     assert said.getvalue() == before
