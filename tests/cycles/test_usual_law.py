@@ -67,7 +67,7 @@ SINE = catalogue[USUAL].law
 LIMITS = {"velocity": "1 m/s", "acceleration": ("-8 m/s^2", "12 m/s^2"), "jerk": "300 m/s^3"}
 
 
-def beside_of(move: Any) -> dict[str, Difference]:
+def beside_of(move: Any) -> dict[str, Any]:
     """The values beside modified sine, by their names."""
     return {each.name: each for each in move.beside.values}
 
@@ -105,6 +105,7 @@ def test_a_greatest_speed_stands_beside_that_of_modified_sine() -> None:
                  speed="60 rpm", limits=limits)  # fmt: skip
     assert values["greatest speed"].usual == pytest.approx(sine.fastest().rpm, rel=1e-12)
     assert values["greatest speed"].chosen > values["greatest speed"].usual
+    assert report.beside is not None
     assert report.beside.table in report.tables
     assert sine.fastest().report().beside is None
 
