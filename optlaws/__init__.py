@@ -1,7 +1,5 @@
 """Optimal motion laws for cam mechanisms and servo axes, with proof of their optimality."""
 
-from typing import Any
-
 from optlaws.lazy import declare, face
 
 _load, __dir__, _names = face(
@@ -73,7 +71,7 @@ declare(
 )
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     if name == "__version__":
         from importlib.metadata import version
 

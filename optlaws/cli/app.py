@@ -106,7 +106,8 @@ def exit_code(arguments: Sequence[str]) -> int:
     except (CycloptsError, InputError) as error:
         text, code = cut(_plain(error)), BAD_INPUT
     except InfeasibleProblem as error:
-        text, code = f"infeasible: {error}", INFEASIBLE
+        # the problem as Python code, which the error ends with, says nothing at a command line
+        text, code = "\n".join([f"infeasible: {error.args[0]}", *([error.tried] if error.tried else [])]), INFEASIBLE
     except NotProven as error:
         text, code = str(error), error.code
     except OptlawsError as error:

@@ -459,7 +459,7 @@ class FrontExport(TextFile):
             Row("B", table.velocities[0], note=f"to {table.velocities[-1]:.7g}"),
             Row("C", table.accelerations[0], note=f"to {table.accelerations[-1]:.7g}"),
             *(Row(f"rounding of {name}, proven", error) for name, error in zip("abcd", table.errors, strict=True)),
-            Row("times lengthened by", table.slack, note="so that limits are kept whatever is rounded"),
+            Row("times lengthened by", table.slack, note="so that the limits hold in spite of rounding"),
         ]
         return Summary(rows)
 
@@ -500,7 +500,7 @@ def _heading(table: FrontTable, about: str) -> list[str]:
         f"proven: no law within the same B has a C less by more than {rounded_up(table.gap)} of it",
         "units: any that fit each other, such as mm, mm/s, mm/s^2, mm/s^3 and s",
         "rounding in LREAL, proven, at most, times stroke/duration^n for n = 0, 1, 2, 3: " + errors,
-        f"times are lengthened by {rounded_up(table.slack)} of them, so that limits are kept whatever is rounded",
+        f"times are lengthened by {rounded_up(table.slack)} of them, so that the limits hold in spite of rounding",
     ]
     beyond = [end for end, proven in zip(("first", "last"), table.ends, strict=True) if not proven]
     return lines + [

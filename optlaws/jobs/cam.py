@@ -319,14 +319,14 @@ class CamResult:
         laws = {each.name: getattr(each.stretch.given, "law", OPTIMAL) for each in plan.peaks}
         given = [f"{name} {shortened(law)}" for name, law in laws.items() if law != OPTIMAL]
         known = [
-            *([f"Found among {plan.search_space}."] if plan.search_space else []),
+            *([f"Search space: {plan.search_space}."] if plan.search_space else []),
             *([f"Given laws: {'; '.join(given)}."] if given else []),
             *([f"Limits: {'; '.join(map(str, plan.limits_taken))}."] if plan.limits_taken else []),
         ]
         if not rows and plan.solutions:
             least = f"least {plan.minimise}"
             rows = [Row(least, (plan.objective, plan.lower_bound), objective_unit(plan), note=plan.status.value)]
-        table = ReportTable.of_pairs(rows, "value", "no laws are below", "status") if rows else None
+        table = ReportTable.of_pairs(rows, "value", "lower bound", "status") if rows else None
         return Section("Laws for the cam", rows, table, self.of_laws, note="\n\n".join(known), digits=6)
 
     @kept_property
@@ -379,7 +379,7 @@ class CamResult:
             Row("best offset", (MILLI * best.offset, None), "mm", note=status),
             Row("greatest pressure angle with it", angles, "deg", note=status),
         ]
-        table = ReportTable.of_pairs(rows, "value", "no offset is below", "status")
+        table = ReportTable.of_pairs(rows, "value", "lower bound", "status")
         data = {name: value for name, value in vars(best).items() if name != "cam"}
         return Section("Offset", rows, table, {"best_offset": data}, digits=6)
 

@@ -48,7 +48,7 @@ _PEAKS = ("peak velocity", "peak acceleration", "peak jerk")
 _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, unit")
 _RUN = "What controllers will run: peaks of the exported files as interpolated, over the law's."
 _ABOUT = "Table and picture begin where the cam does: at {:.9g} deg of the cycle's master, until {:.9g} deg."
-_INTERLOCKS = "Each clearance is proven over the whole cycle: it is nowhere less than its proven value."
+_INTERLOCKS = "The proven value is a lower bound of the clearance over the whole cycle."
 
 
 class AxisTransition(NamedTuple):

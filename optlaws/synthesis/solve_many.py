@@ -120,7 +120,7 @@ def _infeasible(problem: Problem, ended: InfeasibleProblem) -> InfeasibleProblem
         return None
     return InfeasibleProblem(
         "no law of this problem exists: the constraints contradict each other where they do in a nearer problem of "
-        "the same line (error.proof is the certificate)",
+        "the same line",
         problem=problem,
         tried="the multipliers that prove it of a nearer problem prove it of this one too",
         proof=proof,

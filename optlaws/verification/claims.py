@@ -162,7 +162,7 @@ def _laws(swept: SweptParameter, known: list[_Known]) -> Claim:
         return Claim("laws", proven=True, detail=detail)
     point, excess = wrong[0]
     broken = len({point.at for point, _ in wrong})
-    first = f"{excess.name} is broken by {excess.by:.1e} at {swept.name} = {float(point.at)!r}"
+    first = f"{excess.name} is violated by {excess.by:.1e} at {swept.name} = {float(point.at)!r}"
     return Claim("laws", proven=False, detail=f"{broken} of {len(known)} break conditions: {first}")
 
 
@@ -225,7 +225,7 @@ def _limits(least: LeastTime[TimedMove]) -> Iterator[Claim]:
         holds = used <= 1 + Fraction(BOUND_FEASIBILITY)
         yield Claim(f"the limit of the {limit.name}", holds, f"the law uses {float(used):.9g} of it")
     broken = [excess for excess in excesses(least.move.within(least.duration), law) if not excess.holds]
-    detail = "; ".join(f"{excess.name} is broken by {excess.by:.1e}" for excess in broken)
+    detail = "; ".join(f"{excess.name} is violated by {excess.by:.1e}" for excess in broken)
     yield Claim("the law in the least time", not broken, detail or "it keeps every condition of the move")
 
 

@@ -131,7 +131,7 @@ class Advice:
         >>> import optlaws
         >>> summary = optlaws.advise(optlaws.Rise("1 m", "1 s"), points=0).summary()
         >>> [row.name for row in summary][:3]
-        ['take', 'velocity', 'acceleration']
+        ['recommended', 'velocity', 'acceleration']
         """
         chosen = self.recommendation
         rows = [Row("recommended", chosen.law.name)]
@@ -256,7 +256,7 @@ def front_panels(
     ends = np.repeat(at, 2)[1:-1]
     others = [name for name in guarded if name != x.name]
     no_more = f" with no more {listed(others, 'or')} than {usual.name}" if usual is not None and others else ""
-    below = Series(ends, np.repeat(least[1:], 2), "limit", f"no law{no_more} is below")
+    below = Series(ends, np.repeat(least[1:], 2), "limit", f"lower bound of laws{no_more}")
     curves = Series(at, values, 0, "front"), Series(ends, np.repeat(values[:-1], 2), 0, "reached"), below
     return [Panel(y.name, y.unit, curves, across=x.heading, per=1.0)]
 
@@ -287,7 +287,7 @@ def limits_in_words(law: AdvisedLaw) -> str:
     if not law.limits:
         return ""
     broken = (f"{taken.name} {100.0 * (taken.share - 1.0):.2g} % beyond" for taken in law.broken)
-    return ", ".join(broken) or "kept"
+    return ", ".join(broken) or "satisfied"
 
 
 def proof_in_words(law: AdvisedLaw) -> str:
@@ -315,7 +315,7 @@ def advise(
 ) -> Advice:
     """Advice on the law of a motion: standard and optimal laws side by side, their costs, and a recommendation.
 
-    Of the laws that keep every limit, and take no more than the usual law of what has no limit (peak velocity,
+    Of the laws that satisfy all limits, and have no more than the usual law of what has no limit (peak velocity,
     acceleration, jerk and residual vibration, the peak torque of a drive, and the RMS torque where a motor is rated by
     it), those within 1 % of the least objective are equally good, and of these the one of least residual vibration,
     where there is a follower, or least jerk is recommended. A mass alone changes nothing: its force is its

@@ -41,7 +41,7 @@ class Recommendation:
     >>> chosen.law.name, round(chosen.gain, 4), round(chosen.changes["jerk"], 4)
     ('nearly least acceleration, least jerk', 0.0934, 0.9622)
     >>> chosen.rule
-    'of the laws that take no more velocity or jerk than modified sine, those within 1 % of the least acceleration ...'
+    'of the laws that have no more velocity or jerk than modified sine, those within 1 % of the least acceleration ...'
     """
 
     law: AdvisedLaw
@@ -58,8 +58,8 @@ class Recommendation:
 def recommended(candidates: Candidates, front: Sequence[AdvisedLaw] = ()) -> Recommendation:
     """The recommended law among the known ones.
 
-    Of the laws that keep every limit, and take no more than the usual one of what has no limit, those within 1 % of the
-    least are equally good; of these the one that takes least of the second measure.
+    Of the laws that satisfy all limits, and have no more than the usual one of what has no limit, those within 1 % of
+    the least are equally good; of these the one that has least of the second measure.
     """
     minimise, second, usual = candidates.minimise, candidates.second, candidates.usual
     most = candidates.most()
@@ -98,7 +98,7 @@ class _Words:
     @property
     def rule(self) -> str:
         limited = any(law.limits for law in self.candidates.laws.values())
-        parts = ("keep every limit" if limited else "", f"take {self.no_more}" if self.no_more else "")
+        parts = ("satisfy all limits" if limited else "", f"have {self.no_more}" if self.no_more else "")
         which = " and ".join(part for part in parts if part)
         of_which = f"of the laws that {which}, " if which else ""
         good = f"those within 1 % of the least {self.candidates.minimise} are equally good"
@@ -112,8 +112,8 @@ class _Words:
             for taken in law.limits
             if taken.text and taken.share >= 1.0 - _TELLING
         ]
-        to_full = sentence(" ({} to the full)", listed(full)) if full else ""
-        limits = sentence("{}{}", ", and it keeps every limit" if law.limits else "", to_full)
+        to_full = sentence(" ({} reached)", listed(full)) if full else ""
+        limits = sentence("{}{}", ", and it satisfies all limits" if law.limits else "", to_full)
         name = f'"{law.name}"' if law.kind == "optimal" else law.name
         start = sentence("Take {}: its {} is {}", name, minimise, self._with_unit(minimise, law))
         if usual is None:

@@ -100,8 +100,8 @@ class LeastClearance:
     def text(self) -> str:
         """The condition as text, in millimetres or degrees."""
         _, _, clearance, _, unit, _, margin = self.cells
-        early = "" if margin is None else f", {margin:.6g} ms early"
-        return sentence("{} at {}{}", Amount(clearance, unit), Amount(self.angle, "deg"), early)
+        ahead = "" if margin is None else f", time margin {margin:.6g} ms"
+        return sentence("{} at {}{}", Amount(clearance, unit), Amount(self.angle, "deg"), ahead)
 
 
 def _known(value: float) -> float:

@@ -78,7 +78,7 @@ class AxesReport:
     def facts(self) -> Summary:
         """The least clearance of every interlock with its proof, limits that are broken, and what laws minimise."""
         clearances = (
-            Row(name, value, unit, angle, status if margin is None else f"{status}, {margin:.6g} ms early")
+            Row(name, value, unit, angle, status if margin is None else f"{status}, time margin {margin:.6g} ms")
             for name, status, value, _, unit, angle, margin in (least.cells for least in self.clearances)
         )
         laws = (
@@ -98,7 +98,7 @@ class AxesReport:
     @property
     def tables(self) -> tuple[ReportTable, ...]:
         """The least clearances, where there are interlocks."""
-        headings = ("interlock", "status", "least clearance", "proven", "unit", "at, deg", "time in hand, ms")
+        headings = ("interlock", "status", "least clearance", "proven", "unit", "at, deg", "time margin, ms")
         clearances = [least.cells for least in self.clearances]
         return (ReportTable(headings, clearances),) if clearances else ()
 

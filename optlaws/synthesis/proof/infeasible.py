@@ -158,7 +158,7 @@ def _contradiction(proof: Certificate) -> str:
     words = [constant.where(k, part).partition(" = ") for constant, part, k in placed]
     symbols = dict.fromkeys(symbol for symbol, _, _ in words)
     places = ", ".join(f"{shown} = {', '.join(at for symbol, _, at in words if symbol == shown)}" for shown in symbols)
-    return f"the constraints contradict each other at {places} (error.proof is the certificate)"
+    return f"the constraints contradict each other at {places}"
 
 
 def _out_of_reach(problem: Problem, elastic: Model) -> Certificate | None:
@@ -260,8 +260,8 @@ def _named(problem: Problem, constraint: str) -> str:
     if constraint not in _TEXT and limits is not None:
         return f"{constraint} <= {limits.high:g}"
     text = _TEXT.get(constraint, constraint)
-    value = getattr(problem, text[-1], None) if text[-1] in "CDJ" else None
-    return f"{text} = {value!r} everywhere" if value is not None else f"{text} everywhere"
+    bounded = None if text[-1] not in "CDJ" else problem.range(text[-1])
+    return f"{text} everywhere" if bounded is None else f"{text} = {bounded.high:g} everywhere"
 
 
 def possible_velocities(problem: Problem) -> tuple[float | None, float | None]:

@@ -166,7 +166,7 @@ def test_points_below_the_front_take_more_of_what_its_legend_names(rise: Advice)
         below = any(x <= at * (1.0 + 1e-9) and y < least * (1.0 - 1e-7) for at, least in bounds)
         assert not below or any(law.values[name] > usual[name] for name in ("velocity", "jerk"))
     labels = [str(artist.get_label()) for artist in rise.plot()]
-    assert "no law with no more velocity or jerk than modified sine is below" in labels
+    assert "lower bound of laws with no more velocity or jerk than modified sine" in labels
     assert "open markers: more velocity or jerk than modified sine" in labels
 
 

@@ -199,7 +199,7 @@ export class View {
     const head = html("tr", {}, html("th", { scope: "col", text: "law" }), ...columns.map((text) => html("th", { scope: "col", class: "number", text })));
     const lines = rows.map((row) => {
       const take = row.take ? html("button", { type: "button", class: "link", "data-key": `take ${row.name}`, "aria-label": `Take ${row.name}`, text: "take", onclick: () => this.#take(row) }) : "";
-      const ends = [["limits", row.limits, row.limits && row.limits !== "kept" ? "number over" : "number"], ["proof", row.proof, "number"]];
+      const ends = [["limits", row.limits, row.limits && row.limits !== "satisfied" ? "number over" : "number"], ["proof", row.proof, "number"]];
       return html("tr", { class: row.name === chosen ? "active" : "", "aria-current": row.name === chosen ? "true" : null },
         html("th", { scope: "row" }, html("span", { class: "row-name", text: row.name }), take, ...(beneath ? ends.filter(([, text]) => text).map(([key, text, name]) => html("span", { "data-ends": key, class: name.includes("over") ? "over" : "quiet", text })) : [])), ...row.values.map((value, i) => html("td", { class: "number", text: number(value, measures[i].unit, 5) })), ...(beneath ? [] : ends).map(([key, text, name]) => html("td", { "data-column": key, class: name, text })));
     });

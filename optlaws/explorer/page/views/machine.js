@@ -310,7 +310,7 @@ export class View {
       { name: `line law-${i}${i === active ? " active" : ""}`, title: `${this.#names()[i]}: RMS torque`, points: along(law.rms) },
       { name: `line thin law-${i}`, title: `${this.#names()[i]}: peak torque`, points: along(law.peak) },
     ]);
-    if (bound.some((one) => one !== null)) lines.push({ name: "limit", title: "no law is below", points: along(bound) });
+    if (bound.some((one) => one !== null)) lines.push({ name: "limit", title: "lower bound", points: along(bound) });
     const [low, high] = this.#span;
     const shown = [value, ...laws.flatMap((law) => [...law.rms, ...law.peak])];
     const mine = laws[active];
