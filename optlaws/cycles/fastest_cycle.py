@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 from optlaws.cycles.answers import Answers
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
@@ -22,13 +22,11 @@ from optlaws.kept import former_name, kept_property
 from optlaws.lazy import imported
 from optlaws.motion.quantities import TURN, Kind
 from optlaws.sentences import Amount, joined, sentence
+from optlaws.shown.report import Report
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import FASTER
-
-if TYPE_CHECKING:
-    from optlaws.cycles.report import FastestReport
 
 _MORE = 0.1  # of a limit, by which it is raised to see what that gives
 
@@ -207,7 +205,7 @@ class FastestCycle(Answers, Declared, title="a fastest cycle"):
         periods = {name: period() for name, period in raised.items()}
         return tuple(LimitGain(name, TURN / period, self.period / period) for name, period in periods.items())
 
-    def report(self) -> FastestReport:
+    def report(self) -> Report:
         """The speed and the period, the active limit, the gain from a limit raised by a tenth, and the motions' times.
 
         Examples

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.report import CycleReport, motion_table
+from optlaws.cycles.report import CycleReport, FastestReport, motion_table
 from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
@@ -170,7 +170,7 @@ def _add_axis(
     page.heading(name).picture(plain, title, figure_of(cycle.plot(), title), f"axis {name}: its picture")
     if fastest is not None:
         page.facts(fastest.summary())
-        if (beside := fastest.report().beside) is not None:
+        if (beside := FastestReport(fastest).beside) is not None:
             page.table(*beside.table)
     page.report(cycle.report())
     if isinstance(cycle.drive, Drive):
