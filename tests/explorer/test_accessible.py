@@ -6,6 +6,7 @@ from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from urllib.parse import parse_qs, urlsplit
 
 from tests.explorer.conftest import without_browser
 from tests.explorer.talk import OPTIMAL, Server
@@ -71,3 +72,6 @@ def test_every_view_keeps_wcag_cuts_no_field_and_says_the_numbers_of_its_picture
         page.emulate_media(color_scheme="dark")
         assert violations(page, CONTRAST) == [], view
         page.emulate_media(color_scheme="light")
+    # examples that were looked at and not changed are in no address
+    page.wait_for_url(f"**view=%22{view}%22**")
+    assert set(parse_qs(urlsplit(page.url).fragment)) <= {"view", "law", view}

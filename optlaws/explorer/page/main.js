@@ -95,7 +95,7 @@ async function begin() {
   document.body.append(html("datalist", { id: "names" }, ...names.map((name) => html("option", { value: name }))));
   const first = begun(location.hash, state);
   const views = {};
-  const study = new Study(first, render, keep);
+  const study = new Study(first, render, keep, examples);
   const named = (now) => (Object.hasOwn(VIEWS, now.view) ? now.view : "laws");
   const titles = Object.fromEntries(Object.entries(VIEWS).map(([name, { title }]) => [name, title]));
   const choose = tabs(document.getElementById("views"), titles, (key) => study.change("view", (next) => {

@@ -91,11 +91,13 @@ export class Study {
   #last = { what: null, at: 0 };
   #changed;
   #kept;
+  #examples;
   #writing = null;
 
-  /** `changed(state)` draws a state; `kept(address)` keeps it. */
-  constructor(state, changed, kept) {
+  /** `changed(state)` draws a state; `kept(address)` keeps it, without the examples of other views that nobody changed. */
+  constructor(state, changed, kept, examples) {
     this.state = state;
+    this.#examples = examples;
     this.#changed = changed;
     this.#kept = kept;
   }
@@ -105,7 +107,8 @@ export class Study {
     if (this.#writing === null) return;
     clearTimeout(this.#writing);
     this.#writing = null;
-    const address = written(this.state);
+    const own = Object.entries(this.state).filter(([name, value]) => name === this.state.view || !same(value, this.#examples[name]));
+    const address = written(Object.fromEntries(own));
     history.replaceState(null, "", address);
     this.#kept(address);
   }
