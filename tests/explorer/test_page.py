@@ -269,6 +269,11 @@ def test_a_cycle_is_shown_changed_and_refused(page: Page, served: Server) -> Non
     settle(page)
     assert page.locator("#segments .over").count() == 2
     assert page.locator("#motion .beyond").count() == 1
+    # an optimal return that reaches the limit keeps it
+    page.get_by_label("segment 2 law").fill("")
+    settle(page)
+    assert page.locator("#segments .over").count() == 1
+    assert len({zone.get_attribute("x") for zone in page.locator("#motion clipPath[id^=beyond] rect").all()}) == 1
 
 
 def test_what_a_cycle_declares_is_in_its_form(page: Page, served: Server) -> None:

@@ -25,7 +25,7 @@ export class Panel {
   #shown;
   #cursor = svg("g", { class: "reading", "aria-hidden": "true" });
 
-  /** `shown` holds the answer, the span of the variable in sight, the law that is active, and a name for its parts. */
+  /** `shown` holds the answer, the span of the variable in sight, the law that is active, where limits are broken, and a name for its parts. */
   constructor(panel, shown, { width, height, last }) {
     this.#panel = panel;
     this.#shown = shown;
@@ -94,8 +94,11 @@ export class Panel {
     if (this.#panel.note) this.element.append(svg("text", { class: "limit-name", x: box.left + WRITTEN * (titled(this.#panel).length + 2), y: 13, text: this.#panel.note }));
     const inside = svg("clipPath", { id: `inside-${name}` }, svg("rect", { x: box.left, y: box.top - 8, width: box.right - box.left, height: box.bottom - box.top + 14 }));
     const lines = svg("g", { "clip-path": `url(#inside-${name})` });
-    const zones = this.#zones();
-    const clip = svg("clipPath", { id: `beyond-${name}` }, ...zones.map((zone) => zone.cloneNode()));
+    const { limits = [] } = this.#panel;
+    const zones = this.#zones(limits);
+    const broken = this.#shown.beyond.flatMap(([from, to]) => limits.map((limit) => ({ ...limit, from: Math.max(from, limit.from), to: Math.min(to, limit.to) })));
+    const over = this.#zones(broken.filter(({ from, to }) => from < to));
+    const clip = svg("clipPath", { id: `beyond-${name}` }, ...over);
     lines.append(...zones);
     for (const { at: [from] } of segments) if (x(from) > box.left) lines.append(svg("line", { class: "joint", x1: x(from), x2: x(from), y1: box.top, y2: box.bottom }));
     const drawn = this.#series.map(({ at, values, law, dots, name: title }) => {
@@ -104,7 +107,7 @@ export class Panel {
     });
     const order = [...drawn.filter(({ law }) => law !== this.#active?.law).toReversed(), ...drawn.filter(({ law }) => law === this.#active?.law).toReversed()];
     for (const { law, d, dots, title } of order) lines.append(svg("path", { class: `line law-${law}${law === this.#active.law ? " active" : ""}${dots ? " dots" : ""}`, d }, title ? svg("title", { text: title }) : null));
-    if (zones.length && this.#shown.beyond && drawn.length) lines.append(svg("path", { class: "beyond", d: drawn[0].d, "clip-path": `url(#beyond-${name})` }));
+    if (over.length && drawn.length) lines.append(svg("path", { class: "beyond", d: drawn[0].d, "clip-path": `url(#beyond-${name})` }));
     this.element.append(inside, clip, lines, ...peakMarks(this.#panel.peaks ?? [], (peak) => [x(peak.at), y(peak.value)], box, this.#active?.law ?? 0), this.#cursor);
   }
 
@@ -121,10 +124,10 @@ export class Panel {
   }
 
   /** Where the motion must not go: above and below the limits of each segment. */
-  #zones() {
+  #zones(limits) {
     const [x, y, box] = [this.#x, this.#y, this.#box];
     const zone = ({ from, to }, top, bottom) => svg("rect", { class: "zone", x: x(from), width: x(to) - x(from), y: top, height: Math.max(0, bottom - top) });
-    return (this.#panel.limits ?? []).flatMap((limit) => {
+    return limits.flatMap((limit) => {
       const [least, value] = edges(limit);
       const [above, below] = [Math.max(box.top, y(value)), Math.min(box.bottom, y(least))];
       const found = above > box.top ? [zone(limit, box.top, above)] : [];

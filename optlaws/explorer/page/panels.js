@@ -96,7 +96,7 @@ export class Panels {
     const height = Math.max(LEAST, Math.floor((room - FOOT) / panels.length));
     this.#panels = panels.map((panel, i) => new Panel(
       panel,
-      { answer, span, zoomed, segments, active: answer.active ?? 0, name: `${this.#root.id}-${i}`, beyond: panel.beyond ?? segments?.some(({ peaks }) => peaks?.[i - 1]?.beyond) },
+      { answer, span, zoomed, segments, active: answer.active ?? 0, name: `${this.#root.id}-${i}`, beyond: beyond(panel, segments ?? [], i) },
       { width, height, last: i === panels.length - 1 },
     ));
     this.#drawings.replaceChildren(...this.#panels.map(({ element }) => element));
@@ -207,4 +207,10 @@ export class Panels {
     else return;
     event.preventDefault();
   }
+}
+
+/** Where a panel is beyond its limits, as [from, to]: all of it, or the segments that break their own. */
+function beyond(panel, segments, i) {
+  if (panel.beyond !== undefined) return panel.beyond ? [[-Infinity, Infinity]] : [];
+  return segments.filter(({ peaks }) => peaks?.[i - 1]?.beyond).map(({ at }) => at);
 }
