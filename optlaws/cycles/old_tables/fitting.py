@@ -14,6 +14,8 @@ from scipy.interpolate import BSpline, make_interp_spline
 from optlaws.numbers import Array
 
 DEGREE = 5
+#: pieces of a spline that is simple enough to stand beside standard laws, at most
+SIMPLE = 6
 #: numbers of pieces that are tried
 _PIECES = (1, 2, 3, 4, 5, 6, 8, 10, 13, 17, 22, 29, 38, 50)
 #: rows for each coefficient at least
@@ -33,6 +35,8 @@ _EVIDENT = 12.0
 _CANDIDATES = 160
 #: with as few pieces no joint is looked for: the motion is smooth
 _SIMPLE = 4
+#: of a step: how near the ends of rests are looked for, in the end and in searches
+_FINE, _ROUGH = 0.02, 0.2
 #: with more pieces the ends of rests are no longer looked for: the pieces begin to take part in the rests
 _ENDS_BY = 6
 
@@ -180,11 +184,14 @@ class _Fitter:
     ) -> None:
         self.x, self.y, self.noise, self.ends = places, heights, noise, ends
         self.advance, self.continuity = advance, continuity  # of the turn, and at its seam
+        self.fine = _FINE  # of a step: how near the ends of rests are looked for
 
     def thinned(self) -> _Fitter:
         """The same with fewer rows, for searches."""
         some = slice(None, None, max(1, len(self.x) // _SEARCHED))
-        return _Fitter(self.x[some], self.y[some], self.noise[some], self.ends, self.advance, self.continuity)
+        fewer = _Fitter(self.x[some], self.y[some], self.noise[some], self.ends, self.advance, self.continuity)
+        fewer.fine = _ROUGH
+        return fewer
 
     def with_seam(self, continuity: int) -> _Fitter:
         """The same with as many derivatives continuous at the seam of the turn."""
@@ -246,7 +253,7 @@ class _Fitter:
             width = max([(self.ends[side].high - self.ends[side].low) / 8.0 for side in sides], default=0.0)
         wide = width
         middle = self.solved(places[0], places[1], joints, pieces)[0]
-        while sides and wide > 0.02 * step:
+        while sides and wide > self.fine * step:
             moved = False
             for side in sides:
                 end, at = self.ends[side], places[side]
@@ -467,7 +474,7 @@ class _Search:
         at = base.start, base.stop
         placed = self.fitter.placed(at, sorted([*joints, joint]), pieces)
         more = tuple(joint for joint in placed if at[0] < joint.place < at[1])
-        family = self.climbed(more, at, None)
+        family = self.climbed(more, at, 2.0 * float(np.median(np.diff(self.fitter.x))))
         return (more, family) if family else None
 
     def accepted(self, family: Sequence[CurveFit]) -> list[CurveFit]:

@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from optlaws.cycles.old_tables.fitting import CurveFit, End, fits_of, interpolation
+from optlaws.cycles.old_tables.fitting import SIMPLE, CurveFit, End, fits_of, interpolation
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
 from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on
 from optlaws.cycles.old_tables.standard import Chain, Outline, criterion, spline_of
@@ -28,8 +28,6 @@ _FEWEST_MOVING = 4
 _EXACT = 4
 #: by how much the variance about a standard law may exceed that about a spline: of F, one in a thousand
 _UNLIKELY = 1e-3
-#: pieces of a spline that is simple enough to stand beside standard laws
-_SIMPLE = 6
 _UNCERTAIN = 3.0
 #: of a peak of a standard law, by which places of its ends that are rounded may change it
 _ROUNDED_LAW = 1e-3
@@ -37,6 +35,8 @@ _ROUNDED_LAW = 1e-3
 _UNRESOLVED = 9.0
 #: of the length of a turn: what is shorter is no move of its own, and places that are nearer are the same
 SHORTEST, _SAME = 1.0 / 3600.0, 1e-9
+#: times what the means of windows show of a derivative that a fit has not, for means are less than peaks
+_MISSING = 1.5
 #: times the greatest peak of models: rows that have more speak against all of them
 _AT_ODDS = 1.02
 #: rows farther off a standard law, in standard deviations, are far off it, if they are few of all
@@ -412,7 +412,7 @@ class _Region:
         near = [name for name in chain.names if name] if chain else [""] * (len(places) - 1)
         if chain is not None and not (self._explains(chain, fits[0]) if fits else plain):
             chain = None
-        if chain is None and self.split and (not fits or fits[0].pieces > _SIMPLE or fits[0].joints):
+        if chain is None and self.split and (not fits or fits[0].pieces > SIMPLE or fits[0].joints):
             parts, counts = self._straight_parts()
             simpler = criterion(counts[0], round(len(x) - counts[1]), len(x))
             if parts and (not fits or simpler < fits[0].criterion(float(np.log(len(x))))):
@@ -513,7 +513,7 @@ class _Region:
         chain = chains[0]
         rows, variance = len(self.x), chain.squares / max(len(self.x) - chain.free, 1)
         good = variance * (1.0 + 3.0 * np.sqrt(2.0 / rows))
-        simple = [fit for fit in fits if fit.pieces <= _SIMPLE and not fit.joints and fit.variance <= good][:1]
+        simple = [fit for fit in fits if fit.pieces <= SIMPLE and not fit.joints and fit.variance <= good][:1]
         for i, name in enumerate(chain.names):
             if not name:
                 continue
@@ -564,9 +564,22 @@ class _Region:
         """Parts of a fitted motion, with the nearest laws, and the most that their peaks are."""
         for (low, high), nearest in zip(pairwise(nodes), near, strict=True):
             first, last = (fits[0].height(place) for place in (low, high))
-            bounds = most or [most_peak(fits, nu, low, high) for nu in (1, 2, 3)]
+            if first == last or not low < high:
+                continue
+            bounds = most or [
+                most_peak(fits, nu, low, high) + self._missing(fits[0], nu, low, high) for nu in (1, 2, 3)
+            ]
             peaks = [self._interval(nu, low, high, bounds[nu - 1], variance) for nu in (1, 2, 3)]
             yield FittedMove(low, high, first, last, tuple(fits), "", nearest, tuple(peaks))
+
+    def _missing(self, fit: CurveFit, nu: int, low: float, high: float) -> float:
+        """What the rows show of a derivative that a fit has not: at joints that it smooths."""
+        inside = (self.x >= low) & (self.x <= high)
+        if int(inside.sum()) <= nu + 1:
+            return 0.0
+        off, noise = self.y[inside] - fit.values(self.x[inside]), self.noise[inside]
+        noise = noise * max(float(np.median(np.abs(off) / noise)) / MEDIAN, 1.0)
+        return _MISSING * least_peak(self.x[inside], off, noise, self.digit, nu)
 
     def _interval(self, nu: int, low: float, high: float, most: float, variance: float = 1.0) -> PeakInterval:
         """The interval of a peak, for noise of the variance about the model where that is more than by differences."""

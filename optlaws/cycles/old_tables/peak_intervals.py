@@ -9,13 +9,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from optlaws.cycles.old_tables.fitting import CurveFit
+from optlaws.cycles.old_tables.fitting import SIMPLE, CurveFit
 from optlaws.numbers import Array
 
 #: standard deviations by which estimates in bands are off at most, and in windows beyond what is usual for as many
 _ABOVE, _BEYOND = 3.0, 1.2
 #: of a peak, by which a spline may be off a smooth motion where the samples have all digits
 _APPROXIMATION = 1e-3
+#: of a jump of jerk by the length of pieces: what a smooth peak of acceleration is less
+_KINK = 0.1
 #: windows have so many rows, and each begins so many parts of its length behind the last one
 _LONGER, _OVERLAP = 1.35, 6
 #: places of each piece at which a band is looked at
@@ -106,5 +108,17 @@ def most_peak(fits: Sequence[CurveFit], nu: int, low: float, high: float) -> flo
         at = np.unique(np.concatenate([at, np.nextafter(inner, -inf)]))
         values = np.abs(fit.values(at, nu))
         peaks.append(float(values.max()))
+        if nu == 2 and fit.pieces > SIMPLE:
+            values += _smoothed_kink(fit, at)
         most = max(most, float((values + _ABOVE * fit.deviation(at, nu)).max()))
     return most * (1.0 + _APPROXIMATION) + max(peaks) - min(peaks) if peaks else inf
+
+
+def _smoothed_kink(fit: CurveFit, at: Array) -> Array:
+    """What an acceleration is more at a kink that pieces of a fit smooth: a share of its jump of jerk by their length.
+
+    The jerk of a smooth motion changes twice as much over twice as far, and that of a kink as much.
+    """
+    length = (fit.stop - fit.start) / max(fit.pieces, len(fit.breaks) - 1)
+    near, far = (fit.values(at + apart, 3) - fit.values(at - apart, 3) for apart in (length, 2.0 * length))
+    return np.asarray(_KINK * length * np.maximum(np.minimum(2.0 * np.abs(near) - np.abs(far), np.abs(far)), 0.0))

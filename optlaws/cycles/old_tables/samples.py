@@ -24,6 +24,8 @@ LEAST_NOISE = 1e-9
 _FAR_ORDER, _SUSPECT = 6, 6.0
 #: times the noise: the standard deviation of what the filter gives; and rounds of noise and points far off
 _FILTERED, _MOST_ROUNDS = 1.78, 4
+#: degrees of polynomials of the rows on a side of a point, the next one where rows are off by more deviations of noise
+_DEGREES_BESIDE, _FITTING = (2, 3, 4), 2.0
 #: rows on each side of a seam, and by how many standard deviations their cubics may miss each other there
 _BESIDE_SEAM, _STEP = 9, 5.0
 #: in fewer rows, in orders of the differences, these tell the motion itself from noise nowhere
@@ -260,11 +262,13 @@ def _far_points(places: Array, heights: Array, noise: float) -> Mask:
         seen[worst] = True
         # at a joint or a corner a point is where one side goes on; one that is far off is so for both sides
         sign, rest = np.sign(filtered[worst]), y - sizes
-        off = [
-            min(sign * (rest[worst] - _beyond(x[rows], rest[rows], x[worst])) for rows in _beside(worst, wide))
-            for wide in (5, 8)
-        ]
-        if max(off) > _BOTH * outside[worst]:
+        off = 0.0
+        for degree in _DEGREES_BESIDE:
+            sides = [_beyond(x[rows], rest[rows], x[worst], degree) for rows in _beside(worst, 2 * degree + 1)]
+            off = min(sign * (rest[worst] - end) for end, _ in sides)
+            if max(left for _, left in sides) <= _FITTING * noise:
+                break
+        if off > _BOTH * outside[worst]:
             taken.append(worst)
             # what it hid beside it is seen now
             seen[max(worst - 2 * order, 0) : worst + 2 * order + 1] = False
@@ -295,13 +299,15 @@ def _beside(row: int, wide: int) -> tuple[slice, slice]:
     return slice(max(row - wide, 0), row), slice(row + 1, row + 1 + wide)
 
 
-def _beyond(places: Array, heights: Array, place: float) -> float:
-    """Where points go on to by the parabola of all of them but the one that is farthest off the others."""
+def _beyond(places: Array, heights: Array, place: float, degree: int) -> tuple[float, float]:
+    """Where points go on to by the polynomial of all but the one farthest off it, and how far the others are off it."""
     u = (places - place) / np.ptp(places)
-    powers = u[:, None] ** np.arange(3)
-    ends = []
+    powers = u[:, None] ** np.arange(degree + 1)
+    fits = []
     for row in range(len(u)):
         others = np.arange(len(u)) != row
-        fit, squares = np.linalg.lstsq(powers[others], heights[others], rcond=None)[:2]
-        ends.append((float(squares[0]) if squares.size else 0.0, float(fit[0])))
-    return min(ends)[1]
+        fit = np.linalg.lstsq(powers[others], heights[others], rcond=None)[0]
+        left = heights[others] - powers[others] @ fit
+        fits.append((float(np.sqrt(left @ left / max(len(u) - degree - 2, 1))), float(fit[0])))
+    size, end = min(fits)
+    return end, size
