@@ -33,10 +33,10 @@ EACH_TIME = 12
 
 @cache
 def file_of(file: File) -> tuple[Data, dict[str, FileEntry]]:
-    """A file, of which fronts over the time have two points, and what is verified in it."""
+    """A file, of which fronts have two points, and what is verified in it."""
     data: Data = json.loads(file.read_text("utf-8"))
     for path in places(data):
-        if path[-1] == "points" and isinstance(value_at(data, path), list):
+        if path[-1] in {"points", "values"} and isinstance(value_at(data, path), list):
             del value_at(data, path)[2:]
     return data, entries(read(data))
 
