@@ -110,6 +110,7 @@ def test_the_law_to_take_is_taken_by_a_click(page: Page, served: Server) -> None
     )
     assert answer["chosen"] in (page.locator("#advice-chart [role=img]").get_attribute("aria-label") or "")
     page.get_by_role("button", name="Take this law").click()
+    assert page.evaluate("() => document.activeElement.dataset.key") == "cycle"
     settle(page)
     assert "proven optimal" in page.locator("#cycle-trust").inner_text()
     (row,) = [row for row in answer["rows"] if row["name"] == answer["chosen"]]

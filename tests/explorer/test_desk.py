@@ -168,6 +168,14 @@ def test_the_focus_stays_where_the_reader_is(page: Page, served: Server) -> None
     page.keyboard.press("Enter")
     settle(page)
     assert focused(page) != "BODY"
+    page.get_by_role("tab", name="C over B").click()
+    settle(page)
+    known = page.get_by_role("button", name="modified sine: B")
+    known.focus()
+    name = focused(page)
+    page.keyboard.press("Enter")
+    settle(page)
+    assert focused(page) == name
 
 
 def test_two_keys_lead_to_the_law_in_the_plane(page: Page, served: Server) -> None:

@@ -153,7 +153,8 @@ def test_a_dropped_table_is_shown_and_bettered_within_a_dragged_band(page: Page,
     bettered(page)
     assert "modified sine" in page.locator("#old-moves").inner_text()
     assert page.locator("#old-curves .dots").count() == 2
-    page.get_by_role("button", name="Find better laws").click()
+    page.get_by_role("button", name="Find better laws").press("Enter")
+    assert page.evaluate("() => document.activeElement.id") == "old-gains"
     band = page.get_by_label("Tolerance of the better laws", exact=True)
     band.fill("0.2")
     bettered(page)

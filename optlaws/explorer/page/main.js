@@ -131,6 +131,8 @@ async function begin() {
     const name = named(now);
     for (const other of Object.keys(VIEWS)) rootOf(other).hidden = other !== name;
     choose(name);
+    // a law that is taken to another view takes the reader with it
+    if (document.activeElement.closest(".view[hidden]")) document.querySelector(`#views [data-key=${name}]`).focus({ preventScroll: true });
     const view = views[name];
     if (view) {
       if (name in examples) now[name] ??= structuredClone(examples[name]);

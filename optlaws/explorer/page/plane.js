@@ -1,7 +1,7 @@
 // The plane of two constants: front, limit, standard laws, Savin's families, and the laws of the study; one is dragged.
 
 import { frame, scale, ticks } from "./axes.js";
-import { path, sized, svg } from "./svg.js";
+import { path, renew, sized, svg } from "./svg.js";
 
 const BOX = { left: 58, right: 16, top: 12, bottom: 44 };
 const HALO = 13;
@@ -80,7 +80,7 @@ export class Plane {
     // what is not proven is no curve but the laws that were found
     if (!this.#front.proven) for (const [cx, cy] of this.#front.line.map(at)) lines.append(svg("circle", { class: "front-point", cx: cx.toFixed(1), cy: cy.toFixed(1), r: 2.2 }));
     const names = { xs: ticks(...ranges[0], 7), ys: ticks(...ranges[1], 6), xname: `${NAMES[x]} ${x}`, yname: `${NAMES[y]} ${y}` };
-    this.#back.replaceChildren(clip, frame(box, this.#x, this.#y, names), lines, this.#names(box), ...this.#known(box));
+    renew(this.#back, clip, frame(box, this.#x, this.#y, names), lines, this.#names(box), ...this.#known(box));
     this.#drawLaws();
   }
 

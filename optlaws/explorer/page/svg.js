@@ -35,7 +35,8 @@ export function sized(element, draw) {
   return () => (known[0] ? known : read());
 }
 
-/** New children for an element; what had the focus has it again, or where it is gone the first that can have it. */
+/** New children for an element; what had the focus has it again, or where it is gone the first that can have it, or the
+    element itself. */
 export function renew(root, ...children) {
   const named = (one) => one.dataset.key ?? one.getAttribute("aria-label") ?? one.textContent;
   const before = root.contains(document.activeElement) ? document.activeElement : null;
@@ -43,7 +44,9 @@ export function renew(root, ...children) {
   root.replaceChildren(...children);
   if (before === null || root.contains(document.activeElement)) return;
   const all = [...root.querySelectorAll("button, input, select, [tabindex]")].filter((one) => !one.disabled);
-  (all.find((one) => named(one) === name) ?? all[0])?.focus({ preventScroll: true });
+  const next = all.find((one) => named(one) === name) ?? all[0] ?? root;
+  if (next === root) root.tabIndex = -1;
+  next.focus({ preventScroll: true });
 }
 
 /** A path through [x, y] pairs in pixels, or in units of which a picture takes so many decimals; null breaks it. */

@@ -6,14 +6,10 @@ import { listed, written } from "./units.js";
 
 export function showTrust(root, view, ways, go) {
   root.classList.toggle("none", Boolean(view?.refused));
-  // the reader who went back by a key reads on here
-  const within = root.contains(document.activeElement);
-  root.tabIndex = -1;
-  if (!view) root.replaceChildren();
+  if (!view) renew(root);
   else if (view.refused) renew(root, ...refusal(view.refused, ways, go));
   else if (view.trust) renew(root, ...trust(view.trust));
   else renew(root, html("p", {}, html("strong", { class: "word given", text: "given" }), " A law as it stands: nothing was optimised."));
-  if (within && !root.contains(document.activeElement)) root.focus({ preventScroll: true });
 }
 
 function trust({ status, word, advice, gap, facts, proof }) {
