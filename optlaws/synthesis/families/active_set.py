@@ -72,13 +72,16 @@ class ActiveSet:
         )
 
     def merged(self, near: float) -> ActiveSet:
-        """The active set with contacts of one row merged that are nearer than a distance."""
+        """The active set with contacts of one row merged that are nearer than a distance; sides of a break are not."""
         if not len(self.u):
             return self
         order = np.lexsort((self.u, self.s, self.family))
         family = self.family[order]
         u, s, weights = (part[order] for part in (self.u, self.s, self.multipliers))
         close = (np.diff(family) == 0) & (np.diff(s) == 0.0) & (np.diff(u) < near)
+        # what may not move and lies beside another is the other side of a break, where the row jumps
+        sides = ~self.free[order]
+        close &= ~(sides[1:] & sides[:-1] & (np.diff(u) > 0.0))
         if not close.any():
             return self
         first = np.flatnonzero(np.concatenate([[True], ~close]))
