@@ -45,15 +45,11 @@ _MOVES = 4
 
 @dataclass(eq=False)
 class Candidate:
-    """A law that keeps every constraint, recomputed over the whole interval, and the program's optimum that it is.
-
-    `least` is the objective, or where the optimum shows no exact contacts what the one near it cannot be below.
-    """
+    """A law that keeps every constraint, recomputed over the whole interval, and the program's optimum that it is."""
 
     optimum: ActiveSet
     law: MotionLaw
     objective: float
-    least: float
 
 
 @dataclass(eq=False)
@@ -374,15 +370,14 @@ class _Laws:
     def candidate(self, optimum: ActiveSet) -> Candidate | None:
         """The law of an optimum; None where it breaks a constraint."""
         law, value = self.at(optimum.x)
-        return Candidate(optimum, law, value.objective, value.objective) if value.sound else None
+        return Candidate(optimum, law, value.objective) if value.sound else None
 
 
 def _agree(first: Candidate | None, last: Candidate | None) -> bool:
     """Whether two starts gave laws with the same objective, as exactly as the search knows it."""
     if first is None or last is None:
         return False
-    better, worse = sorted((first, last), key=lambda law: law.objective)
-    return worse.least - better.objective <= AGREEMENT * abs(first.objective)
+    return abs(first.objective - last.objective) <= AGREEMENT * abs(first.objective)
 
 
 def attempt(
@@ -404,10 +399,7 @@ def attempt(
     outcome = solve(model.program, warm, start=point, holds=holds, rounds=0 if near else ROUNDS, method=method)
     led = outcome.tried if outcome.optimum is None else (outcome.optimum,)
     candidates = (laws.candidate(state.at(on_equations(model.program, state.x))) for state in led)
-    best = min((law for law in candidates if law is not None), key=lambda law: law.objective, default=None)
-    if best is not None and outcome.moved_from is not None:
-        best = replace(best, least=min(best.objective, float(claim @ outcome.moved_from.x)))
-    return outcome, best
+    return outcome, min((law for law in candidates if law is not None), key=lambda law: law.objective, default=None)
 
 
 def feasible(model: Model, optimum: ActiveSet) -> Candidate | None:

@@ -15,8 +15,7 @@ import numpy as np
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.curved import IntegralFamily
-from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
+from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.contacts import polished
 from optlaws.synthesis.method.discretised.grids import first_points
 from optlaws.synthesis.method.equations import contradiction, independent
@@ -50,8 +49,7 @@ DEPTH = 1e5  # beyond what laws of the field have
 class Outcome:
     """The result of a program's solution: the optimum (or None), IPOPT's iterations and message, the rounds.
 
-    Where there is no optimum `tried` are the answers to the program on points, whose laws may be of use. Where no exact
-    contacts show and the rows were moved inward instead, `moved_from` is the answer on points alone, which is less.
+    Where there is no optimum `tried` are the answers to the program on points, whose laws may be of use.
     """
 
     optimum: ActiveSet | None
@@ -59,7 +57,6 @@ class Outcome:
     rounds: int
     status: str
     tried: tuple[ActiveSet, ...] = ()
-    moved_from: ActiveSet | None = None
 
     @property
     def continued(self) -> bool:
@@ -68,8 +65,8 @@ class Outcome:
 
     def mapped(self, change: Callable[[ActiveSet], ActiveSet]) -> Outcome:
         """The same outcome for a program in other variables or equations."""
-        optimum, before = (None if state is None else change(state) for state in (self.optimum, self.moved_from))
-        return replace(self, optimum=optimum, tried=tuple(change(answer) for answer in self.tried), moved_from=before)
+        optimum = None if self.optimum is None else change(self.optimum)
+        return replace(self, optimum=optimum, tried=tuple(change(answer) for answer in self.tried))
 
 
 def solve(
@@ -183,10 +180,6 @@ def _solved(
         if nothing_left is not None:
             return Outcome(nothing_left, 0, 0, "nothing left")
         start = initial_guess(program, points)
-        guess = sizes_only(program, start)
-        optimum = polished(program, guess, holds) if guess is not None else None
-        if optimum is not None:
-            return Outcome(optimum, 0, 0, "least squares")
     if start is not None and not rounds:
         stepwise = ByQuadratics(program, start, holds, straight=False)
         optimum, count = cutting_plane_loop(stepwise, points)
@@ -226,7 +219,7 @@ def _by_interior_points(way: ByInteriorPoints, points: list[Points]) -> Outcome:
         # the row that held the objective up is none of the program's
         optimum = None if optimum is None or (optimum.family == len(program.families)).any() else optimum
     left = () if optimum is not None else tuple(tried)
-    return Outcome(optimum, way.iterations, way.count, way.status, left, way.moved_from)
+    return Outcome(optimum, way.iterations, way.count, way.status, left)
 
 
 def grounded(program: Program) -> Program:
@@ -251,43 +244,3 @@ def initial_guess(program: Program, points: list[Points]) -> Array:
         raised = family.slack > 0.0
         x[raised] = np.maximum(x[raised], _AMPLE * needed / family.slack[raised])
     return x
-
-
-def sizes_only(program: Program, x: Array) -> ActiveSet | None:
-    """A guess in which RMS and integrals alone bind, where they alone are minimised: it may need no IPOPT."""
-    sizes = {i: family for i, family in enumerate(program.families) if _is_size(family)}
-    bounded = {int(variable) for family in sizes.values() for variable in np.flatnonzero(family.slack)}
-    if bounded != set(np.flatnonzero(program.objective).tolist()):
-        return None
-    numbers = np.array(list(sizes), dtype=np.intp)
-    ones = np.ones(len(numbers))
-    x = x + _least(program, list(sizes.values()))
-    free = np.zeros(len(numbers), dtype=np.bool_)
-    return ActiveSet(x, numbers, ones, ones, free, ones, np.zeros(len(program.right)))
-
-
-def _is_size(family: ConstraintFamily) -> bool:
-    return isinstance(family, NormFamily) or (isinstance(family, IntegralFamily) and family.convex)
-
-
-def _least(program: Program, sizes: list[ConstraintFamily]) -> Array:
-    """Coordinates of least sum of integrals and squared norms under the equations, to second order."""
-    if not sizes:
-        return np.zeros(program.size)
-    models = [_second_order(family, program.size) for family in sizes]
-    square, slope = (np.sum(parts, axis=0) for parts in zip(*models, strict=True))
-    count = len(program.right)
-    system = np.block([[square, program.equalities.T], [program.equalities, np.zeros((count, count))]])
-    right = np.concatenate([-slope, program.right])
-    return np.asarray(np.linalg.lstsq(system, right, rcond=None)[0][: program.size], dtype=np.float64)
-
-
-def _second_order(family: ConstraintFamily, size: int) -> tuple[Array, Array]:
-    """Second derivatives and slope, at the base law, of an integral or of half the square of a norm."""
-    if isinstance(family, NormFamily):
-        free, base = family.matrix[:, :-1], family.matrix[:, -1]
-        return free.T @ free, free.T @ base
-    ones, nothing = np.ones(1), np.zeros(size)
-    bent = family.hessian(nothing, ones, ones)
-    slope = family.jet(nothing, ones, ones).gradient[0] + family.slack
-    return (np.zeros((size, size)) if bent is None else bent), slope

@@ -6,7 +6,7 @@ A linear or conic program that this does not end is ended by vertices.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -33,9 +33,6 @@ _LINEAR_ROUNDS = 6
 _KINKED_ROUNDS = 3
 #: after so many rounds a small objective is made 1, and amplitudes of a conic program may vanish
 _COARSE = 4
-#: by how many times what an answer exceeds them rows are moved inward, and how often
-_FURTHER = 2.0
-_MOVES = 3
 #: beyond so many variables a round of IPOPT costs more than all vertices together
 _LARGE = 24
 
@@ -70,8 +67,6 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
     tried
         All answers, with their multipliers on the points: the law of one may satisfy all rows although its variables
         do not, where these are the objective's, or the solver's last word is that it failed.
-    moved_from
-        The answer on the points that the last one was moved inward from: the optimum lies between the two.
     """
 
     program: Program
@@ -87,7 +82,6 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
     status: str = ""
     sound: ActiveSet | None = None
     tried: list[ActiveSet] = field(default_factory=list)
-    moved_from: ActiveSet | None = None
 
     def __post_init__(self) -> None:
         if not self.program.curved:
@@ -124,33 +118,11 @@ class ByInteriorPoints(Strategy[list[Points], ActiveSet]):
             self.sound = as_answered(points, answer)
         if self.count == self.rounds:
             flat = _only(self.program, LinearFamily, ConeFamily, KinkedIntegralFamily)
-            inward = self._inward(points, answer) if self.sound is None and self.program.curved else None
-            self.moved_from = None if inward is None else self.tried[-1]
-            return self.sound or inward or (as_answered(points, answer) if flat else None), None
+            return self.sound or (as_answered(points, answer) if flat else None), None
         onward = with_extrema(self.program, points, answer.x)
         if self.count == _COARSE and self.program.curved:
             self._zoom(answer.x)
         return None, onward
-
-    def _inward(self, points: list[Points], answer: Answer) -> ActiveSet | None:
-        """The answer with every row moved inward by more than the last one exceeds it; None where it exceeds them too.
-
-        IPOPT loosens every row by its tolerance, and where the optimum is flat extrema that join mend little of what
-        answers exceed between the points, nor do contacts show by which Newton's method would.
-        """
-        families = self.program.families
-        for _ in range(_MOVES):
-            most = [max(float(family.extremes(answer.x)[2].max()), 0.0) for family in self.program.families]
-            families = tuple(
-                replace(family, bound=family.bound - _FURTHER * excess)
-                for family, excess in zip(families, most, strict=True)
-            )
-            answer = self._answer(replace(self.program, families=families), points)
-            if _lost(answer):
-                return None
-            if self.program.violation(answer.x) <= EXCESS:
-                return as_answered(points, answer)
-        return None
 
     def _zoom(self, x: Array) -> None:
         """Go on in units in which the objective is 1, if it is small near x."""
