@@ -10,6 +10,7 @@ from scipy.interpolate import BPoly
 from optlaws import InputError, MotionLaw, catalogue, read_cycle_table, read_law
 from tests.exports.samples import press
 from tests.internals.cli import exit_code
+from tests.internals.cycles import hermite, law_of_move, position, stretches_of_pieces
 
 QUINTIC = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
 
@@ -258,3 +259,34 @@ def test_constants_and_lines_of_a_program_are_dwells_and_constant_velocities(tmp
     (tmp_path / "one.h").write_text("double breaks[] = {0.0, 90.0, 180.0};\ndouble coefficients[] = {9.0, 9.0};\n")
     with pytest.raises(InputError, match=r"one\.h: the table never moves"):
         read_cycle_table(tmp_path / "one.h")
+
+
+@pytest.mark.parametrize("seed", [*range(12), *(pytest.param(seed, marks=pytest.mark.long) for seed in range(12, 200))])
+def test_any_functions_are_the_moves_of_their_table(seed: int) -> None:
+    """Polynomials through points with velocities and accelerations, some at rest, and rests between them."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(2, 12))
+    x = np.concatenate([[0.0], np.sort(rng.uniform(10.0, 350.0, count - 1)), [360.0]])
+    values = rng.normal(size=(count, 3)) * [10.0, 0.3, 0.01] * rng.integers(0, 2, size=(count, 1)) ** [0, 1, 1]
+    values[1::3] = values[0::3][: len(values[1::3])] * [1.0, 0.0, 0.0]
+    values[0::3] *= [1.0, 0.0, 0.0]
+    values[-1, 0] += 5.0
+    values = np.vstack([values, values[0]])
+    pieces = [hermite(x[i], x[i + 1], values[i], values[i + 1]) for i in range(count)]
+    stretches = stretches_of_pieces(pieces)
+    assert stretches[0].start == 0.0
+    assert [part.stop for part in stretches[:-1]] == [part.start for part in stretches[1:]]
+    assert [part.high for part in stretches[:-1]] == [part.low for part in stretches[1:]]
+    u, size = np.linspace(0.0, 1.0, 201), np.ptp(values[:, 0])
+    for piece in pieces:
+        places, heights = piece.start + piece.length * u, piece.at(u)
+        read = np.array([position(next(part for part in stretches if place <= part.stop), place) for place in places])
+        assert np.abs(read - heights).max() <= 2e-6 * max(size, np.ptp(heights))
+    for nu in (1, 2):
+        greatest = max(np.abs(piece.at(u, nu)).max() for piece in pieces)
+        assert max(part.peaks[nu - 1].high for part in stretches if part.peaks) == pytest.approx(greatest, rel=2e-3)
+    for part in stretches:
+        displacement = law_of_move(part)(u) if part.law is not None else u
+        # what turns by no more than REAL32 may leave is no move of its own
+        turned = abs(part.stroke) * (np.maximum.accumulate(displacement) - displacement).max()
+        assert turned <= 1.2e-7 * max(sum(map(abs, piece.values)) for piece in pieces)

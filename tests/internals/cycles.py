@@ -10,7 +10,8 @@ from optlaws.cycles.answers import Answers, answer
 from optlaws.cycles.axes.enclosed import SimplePolygon
 from optlaws.cycles.old_tables.better_laws import nothing_to_better
 from optlaws.cycles.old_tables.reading import points_in
-from optlaws.cycles.old_tables.stretches import law_of_move
+from optlaws.cycles.old_tables.stated_functions import stretches_of_pieces
+from optlaws.cycles.old_tables.stretches import law_of_move, position
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.optimisation.optimal import halved
 from optlaws.cycles.optimisation.shared_limits import _SharedLimit as SharedLimit
@@ -23,6 +24,7 @@ from optlaws.cycles.usual_law import usual_cycle
 from optlaws.files import reading
 from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.laws.catalogue.tables.columns import LARGEST_TABLE
+from optlaws.laws.catalogue.tables.curve_pieces import hermite
 from optlaws.laws.catalogue.tables.table_points import TablePoints
 from optlaws.motion.quantities import Kind
 from optlaws.synthesis.least_time.timed_move import RATES as OBJECTIVES_OF_MOVES

@@ -21,6 +21,7 @@ from optlaws.laws.catalogue.tables.curve_pieces import APART, CurvePiece, law_of
 #: controller runs between these
 _ENOUGH = 8
 _PLACES = 201
+_REAL32 = 1.2e-7  # of a number, its last digit
 _WITHIN = np.linspace(0.0, 1.0, 9)
 
 
@@ -47,9 +48,9 @@ def stretches_of_pieces(pieces: Sequence[CurvePiece], room: float = 0.0) -> tupl
     >>> [(part.kind, part.stop, part.law) for part in stretches_of_pieces([up, rest, down])]
     [('rise', 120.0, '3-4-5 polynomial'), ('dwell', 240.0, None), ('return', 360.0, 'constant velocity')]
     """
-    levels = [height for piece in pieces for height in piece.ends]
-    size = max(levels) - min(levels)
     parts = [part for piece in pieces for part in _between_turns(piece)]
+    levels = [height for part in parts for height in part.ends]
+    size = max(levels) - min(levels)
     speeds = [float(np.abs(part.at(_WITHIN, 1)).max()) for part in parts]
     if not size or not max(speeds):
         raise InputError("the table never moves: all its positions are the same")
@@ -87,7 +88,7 @@ def _between_turns(piece: CurvePiece) -> list[CurvePiece]:
         return [piece]
     roots = np.atleast_1d(Polynomial(np.trim_zeros(piece.values, "b")).deriv().roots())
     turns = sorted(float(root.real) for root in roots if abs(root.imag) <= APART < root.real < 1.0 - APART)
-    places, least = [0.0], APART * sum(map(abs, piece.values[1:]))
+    places, least = [0.0], _REAL32 * sum(map(abs, piece.values[1:]))
     for turn in turns:
         before, here, last = piece.at(np.array([places[-1], turn, 1.0])).tolist()
         if min(abs(here - before), abs(last - here)) > least:
