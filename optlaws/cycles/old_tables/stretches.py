@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from math import inf
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -13,10 +14,8 @@ from optlaws.cycles.old_tables.motion import FittedMotion, FittedMove
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.laws.segments.segment import PolynomialSegment
+from optlaws.laws.catalogue.tables.curve_pieces import hermite, law_of_pieces
 from optlaws.numbers import Array
-from optlaws.numerics import chebyshev
 from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import VALUE_ROUNDING
 
@@ -26,7 +25,8 @@ StretchKind: TypeAlias = Literal["dwell", "rise", "return"]
 _SHORTEST = 1.0 / 3600.0
 #: of a move: breaks that are nearer to its ends are these
 _APART = 1e-9
-_PIECE_DEGREE = 5
+#: at both ends of a piece of degree 5: its position, velocity and acceleration
+_DERIVATIVES = 3
 
 
 @dataclass(frozen=True)
@@ -125,24 +125,21 @@ def _between(start: float, stop: float, low: float, high: float, least: float) -
 
 def _law_of(move: FittedMove, x: Array, y: Array) -> MotionLaw:
     """The law of a move that is no standard law: of its spline, or of lines between rows where these are too few."""
-    length, stroke = move.stop - move.start, move.high - move.low
-    if not move.fits:
-        inner = (x > move.start) & (x < move.stop)
-        k = np.concatenate([[0.0], (x[inner] - move.start) / length, [1.0]])
-        a = np.concatenate([[0.0], (y[inner] - move.low) / stroke, [1.0]])
-        slopes = np.diff(a) / np.diff(k)
-        return PiecewiseLaw(k, [PolynomialSegment((), float(slope)) for slope in slopes])
-    fit = move.fits[0]
-    breaks = fit.breaks
-    within = breaks[(breaks > move.start + _APART * length) & (breaks < move.stop - _APART * length)]
-    places = np.concatenate([[move.start], within, [move.stop]])
-    nodes = 0.5 * (chebyshev.nodes(_PIECE_DEGREE - 1) + 1.0)
-    segments = []
-    for low, high in pairwise(places.tolist()):
-        c = fit.values(low + (high - low) * nodes, 2) * (length**2 / stroke)
-        b = float(fit.values(np.array([low]), 1)[0]) * length / stroke
-        segments.append(PolynomialSegment(tuple(chebyshev.from_values(c).tolist()), b))
-    return PiecewiseLaw((places - move.start) / length, segments)
+    fit = move.fits[0] if move.fits else None
+    places = x if fit is None else fit.breaks
+    apart = _APART * (move.stop - move.start)
+    inner = (places > move.start + apart) & (places < move.stop - apart)
+    ends = np.concatenate([[move.start], places[inner], [move.stop]])
+    if fit is None:
+        heights = np.concatenate([[move.low], y[inner], [move.high]])[:, None]
+        begins, stops = heights[:-1], heights[1:]
+    else:
+        begins, stops = (
+            np.column_stack([fit.values(at, nu) for nu in range(_DERIVATIVES)])
+            for at in (ends[:-1], np.nextafter(ends[1:], -inf))
+        )
+    states = zip(pairwise(ends.tolist()), begins.tolist(), stops.tolist(), strict=True)
+    return law_of_pieces([hermite(low, high, first, last) for (low, high), first, last in states])
 
 
 def position(part: Stretch, places: Array) -> Array:
