@@ -77,14 +77,15 @@ def solve(
 
     def data() -> dict[str, Any]:
         rest = {"none_below": timed.none_below, "binding": list(timed.binding), "gains": timed.gains()}
-        return {name: whole()[name] for name in _MOVE_KEYS} | rest
+        beside = {} if timed.beside is None else timed.beside.data
+        return {name: whole()[name] for name in _MOVE_KEYS} | rest | beside
 
     def drawn() -> Figure:
         from optlaws.plots.moves import motion_figure
 
         return motion_figure(timed, f"{move['stroke']} in {timed.duration:.6g} s")
 
-    return Answer(lambda: [timed.summary()], data, drawn)
+    return Answer(lambda: [timed.report()], data, drawn)
 
 
 def _remarks(solution: optlaws.Solution) -> list[str]:
