@@ -31,6 +31,20 @@ CUT = """() => [...document.querySelectorAll(".view:not([hidden]) :is(input[type
 UNSCALED = """() => [...document.querySelectorAll(".view:not([hidden]) svg")].filter((one) =>
   one.checkVisibility() && one.querySelectorAll(".frame > .tick[text-anchor=end]").length === 1,
 ).map((one) => one.getAttribute("aria-label"))"""
+#: fields whose border, of 3 to 1 at least, or placeholder, of 4.5 to 1, is too near to the ground that they lie on
+FAINT = """() => {
+  const light = (colour) => colour.match(/[\\d.]+/g).slice(0, 3).map((one) => one / 255).map((one) =>
+    one <= 0.04045 ? one / 12.92 : ((one + 0.055) / 1.055) ** 2.4,
+  ).reduce((sum, one, i) => sum + [0.2126, 0.7152, 0.0722][i] * one, 0.05);
+  const ratio = (one, other) => Math.max(light(one) / light(other), light(other) / light(one));
+  const fields = document.querySelectorAll(".view:not([hidden]) :is(input[type=text], input[type=number], select)");
+  return [...fields].filter((one) => {
+    const { borderTopColor, backgroundColor } = getComputedStyle(one);
+    const written = getComputedStyle(one, "::placeholder").color;
+    const faint = ratio(borderTopColor, backgroundColor) < 3 || ratio(written, backgroundColor) < 4.5;
+    return !one.disabled && one.checkVisibility() && faint;
+  }).map((one) => one.getAttribute("aria-label"));
+}"""
 LAWS = [OPTIMAL, {"name": "modified sine"}]
 
 
@@ -65,12 +79,14 @@ def test_every_view_keeps_wcag_cuts_no_field_and_says_the_numbers_of_its_picture
         assert violations(page) == [], view
         assert page.evaluate(CUT) == [], view
         assert page.evaluate(UNSCALED) == [], view
+        assert page.evaluate(FAINT) == [], view
         for picture in page.locator(f"#{view}-view svg[role=img]").all():
             if picture.is_visible():
                 label = picture.get_attribute("aria-label") or ""
                 assert any(letter.isdigit() for letter in label), (view, label)
         page.emulate_media(color_scheme="dark")
         assert violations(page, CONTRAST) == [], view
+        assert page.evaluate(FAINT) == [], view
         page.emulate_media(color_scheme="light")
     # examples that were looked at and not changed are in no address
     page.wait_for_url(f"**view=%22{view}%22**")

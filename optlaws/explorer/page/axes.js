@@ -2,6 +2,8 @@
 
 import { svg } from "./svg.js";
 
+const HIGH = 10; // pixels that a label takes
+
 export function scale([low, high], [start, stop]) {
   const factor = (stop - start) / (high - low || 1);
   const to = (value) => start + (value - low) * factor;
@@ -34,10 +36,12 @@ export function frame(box, x, y, { xs, ys, xname, yname, xlabels = true }) {
     group.append(svg("line", { class: "grid", x1: at, x2: at, y1: box.top, y2: box.bottom }));
     if (xlabels) group.append(svg("text", { class: "tick", x: at, y: box.bottom + 15, "text-anchor": "middle", text: label(value) }));
   }
-  for (const value of ys) {
+  // where labels would touch every other one is written
+  const every = ys.length > 2 && Math.abs(y(ys[1]) - y(ys[0])) < HIGH ? 2 : 1;
+  for (const [i, value] of ys.entries()) {
     const at = y(value);
     group.append(svg("line", { class: value === 0 ? "grid zero" : "grid", x1: box.left, x2: box.right, y1: at.toFixed(1), y2: at.toFixed(1) }));
-    group.append(svg("text", { class: "tick", x: box.left - 6, y: (at + 4).toFixed(1), "text-anchor": "end", text: label(value) }));
+    if (i % every === 0) group.append(svg("text", { class: "tick", x: box.left - 6, y: (at + 4).toFixed(1), "text-anchor": "end", text: label(value) }));
   }
   if (xname) group.append(svg("text", { class: "name", x: (box.left + box.right) / 2, y: box.bottom + 33, "text-anchor": "middle", text: xname }));
   if (yname) {
