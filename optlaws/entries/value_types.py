@@ -271,8 +271,11 @@ class Measured(_Physical):
         super().__init__(dimensions=dimensions, bare=bare, **ends)
 
     def read(self, value: Any, name: str) -> Any:
-        text = value if self.bare and real(value) is not None else written(value, self.dimensions)
-        self.number(text, name)
+        if self.bare and real(value) is not None:
+            self.number(value, name)
+            return value
+        text = written(value, self.dimensions)
+        self.in_range(either(text, self.dimensions, name)[1], name, text)
         return text
 
 

@@ -21,7 +21,7 @@ _COMPARED = "optlaws.cycles.law_comparison:compare_laws"
 def compare(
     *laws: str,
     machine: Mapping[str, Any],
-    frequency: list[str] | None = None,
+    frequency: list[float | str] | None = None,
     follower: Mapping[str, Any],
     csv: Written = None,
 ) -> Answer:
@@ -40,7 +40,7 @@ def compare(
     """
     from optlaws.shown.report import ReportTable
 
-    swept = None if frequency is None else one_or_two([_number(each) for each in frequency])
+    swept = None if frequency is None else one_or_two(frequency)
     comparison = optlaws.compare_laws(*laws, **machine, frequency=swept, **follower)
     table = ReportTable(list(comparison.rows[0]), [list(row.values()) for row in comparison.rows])
     if csv is not None:
@@ -48,10 +48,3 @@ def compare(
 
         writing.write(csv, tables.to_csv(*table, about="laws compared"))
     return Answer(lambda: [table, *comparison.remarks], comparison.to_dict, comparison.plot)
-
-
-def _number(text: str) -> float | str:
-    try:
-        return float(text)
-    except ValueError:
-        return text

@@ -109,12 +109,13 @@ def period_of(speed: Any, period: Any) -> float:
 
 def axis_of(segments: Sequence[CycleSegment]) -> str:
     """Whether positions are lengths or angles, by the first that is given; lengths if none is."""
-    for segment in segments:
+    for i, segment in enumerate(segments, 1):
+        where = f"segment {i} ({segment.label})"
         for value in (getattr(segment, "by", None), getattr(segment, "to", None)):
             if value is not None:
-                return either(value, ("length", "angle"), f"{segment.label}: displacement")[0]
+                return either(value, ("length", "angle"), f"{where}: displacement")[0]
         if isinstance(segment, ConstantVelocity):
-            kind = either(segment.velocity, ("velocity", "angular velocity"), f"{segment.label}: velocity")[0]
+            kind = either(segment.velocity, ("velocity", "angular velocity"), f"{where}: velocity")[0]
             return "length" if kind == "velocity" else "angle"
     return "length"
 

@@ -398,7 +398,11 @@ def _siemens_file(
     name: str, kind: str, rows: Sequence[str], motion: Motion, run_and_fit: tuple[PiecewiseMotion, Fitted]
 ) -> tuple[str, tuple[str, ...]]:
     run, fit = run_and_fit
-    notes = (fit.in_words(motion.units.slave), f"{fit.count} of the {_TO_SEGMENTS} segments of the TO")
+    notes = (
+        fit.in_words(motion.units.slave),
+        f"{fit.count} of the {_TO_SEGMENTS} segments of the TO",
+        "a source of SIMATIC AX; in TIA Portal the rows are start values of an array of this type in a data block",
+    )
     heading = iec_heading(f"{name}: a cam for LCamHdl and a TO_Cam of the S7-1500T, {kind}", motion, run, notes)
     opening = f"{heading}USING Simatic.Ax.LCamHdl;\nCONFIGURATION {name}_configuration\n    VAR_GLOBAL"
     records = st_records(name, kind, rows, "        ")
