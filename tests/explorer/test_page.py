@@ -262,11 +262,16 @@ def test_a_cycle_is_shown_changed_and_refused(page: Page, served: Server) -> Non
     page.get_by_label("limit velocity").fill("300 mil/s")
     settle(page)
     assert "velocity" in page.locator("#cycle-trust").inner_text()
+    page.get_by_label("limit velocity").fill("300 kg")
+    settle(page)
+    assert page.get_by_label("limit velocity").get_attribute("aria-invalid") == "true"
+    assert page.locator("[aria-invalid]").count() == 1
     assert page.locator("#motion .line").count() == 0
     page.get_by_label("limit velocity").fill("500 mm/s")
     for segment in (0, 2):
         page.get_by_label(f"segment {segment} law").fill("modified sine")
     settle(page)
+    assert page.locator("[aria-invalid]").count() == 0
     assert page.locator("#segments .over").count() == 2
     assert page.locator("#motion .beyond").count() == 1
     # an optimal return that reaches the limit keeps it
@@ -386,6 +391,7 @@ def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Serv
     page.get_by_label("prime radius").fill("18 kg")
     settle(page)
     assert "prime_radius" in page.locator("#cam-trust").inner_text()
+    assert page.get_by_label("prime radius").get_attribute("aria-invalid") == "true"
     assert page.locator("#cam-drawing svg, #cam-curves .line").count() == 0
     page.get_by_label("prime radius").fill("60 mm")
     page.get_by_label("kind of follower").select_option("oscillating roller")

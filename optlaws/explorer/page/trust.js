@@ -2,14 +2,25 @@
 // proof" is an event of its own, which the page answers.
 
 import { html, renew } from "./svg.js";
-import { listed, written } from "./units.js";
+import { listed, plain, written } from "./units.js";
 
 export function showTrust(root, view, ways, go) {
+  mark(root, view?.refused ? written(view.refused.reason) : "");
   root.classList.toggle("none", Boolean(view?.refused));
   if (!view) renew(root);
   else if (view.refused) renew(root, ...refusal(view.refused, ways, go));
   else if (view.trust) renew(root, ...trust(view.trust));
   else renew(root, html("p", {}, html("strong", { class: "word given", text: "given" }), " A law as it stands: nothing was optimised."));
+}
+
+/** Mark the fields of a view that a refusal names with the value that they have. */
+function mark(root, reason) {
+  const quoted = [...reason.matchAll(/'([^']*)'/g)].map(([, value]) => value);
+  for (const field of root.closest(".view").querySelectorAll("input[type=text]")) {
+    const named = reason.includes(field.getAttribute("aria-label")?.split(" ").at(-1));
+    if (named && quoted.includes(plain(field.value.trim()))) field.setAttribute("aria-invalid", "true");
+    else field.removeAttribute("aria-invalid");
+  }
 }
 
 function trust({ status, word, advice, gap, facts, proof }) {
