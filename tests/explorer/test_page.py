@@ -372,7 +372,10 @@ def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Serv
     page.wait_for_timeout(150)
     page.get_by_role("button", name="Pause").click()
     assert float(page.get_by_label("Angle of the cam, degrees").input_value()) > 165
-    for name, value in (("mass", "2 kg"), ("preload", "300 N"), ("width", "20 mm"), ("friction contact", "0.05")):
+    page.get_by_label("mass", exact=True).fill("2 kg")
+    settle(page)
+    assert page.locator("#cam-trust .word").all_inner_texts() == ["lifts off", "no undercut"]
+    for name, value in (("preload", "300 N"), ("width", "20 mm"), ("friction contact", "0.05")):
         page.get_by_label(name, exact=True).fill(value)
     settle(page)
     asked = cam_view.example() | {"forces": {"width": "20 mm", "friction": {"contact": 0.05}}}

@@ -148,7 +148,7 @@ def form() -> dict[str, Any]:
 
 
 def loads(request: CycleRequest) -> dict[str, Any]:
-    """Panels and words of a cam whose motion has a drive; none where it has none."""
+    """Panels and words of a cam whose motion has a drive, and whether its follower lifts off; none without a drive."""
     try:
         result = result_of(request)
         if result.spec.motion.drive is None:
@@ -157,7 +157,11 @@ def loads(request: CycleRequest) -> dict[str, Any]:
         panels, section = [panel_data(panel) for panel in result.report.loads(forces)], forces_section(forces)
         for pressed in panels[2:]:
             pressed["peaks"] = pressed["peaks"][-1:]
-        return {"panels": panels, "facts": [*fact_sentences(section.facts, section.digits), *_spring(result)]}
+        return {
+            "panels": panels,
+            "facts": [*fact_sentences(section.facts, section.digits), *_spring(result)],
+            "lifts_off": forces.lifts_off,
+        }
     except OptlawsError as error:
         return {"panels": [], "facts": [sentence("{}", error.args[0])]}
 
