@@ -27,7 +27,7 @@ def verify(*files: Path) -> Answer:
     Parameters
     ----------
     files
-        JSON files that `optlaws solve --output` wrote, certificates, or the laws.json of a table.
+        JSON files that `optlaws solve --output` wrote, certificates, or results such as laws.json and cycle.json.
     """
     if not files:
         raise InputError("name at least one file that `optlaws solve --output FILE` wrote")
