@@ -322,7 +322,7 @@ MOVE = "solve --order 3 --fastest --stroke 5mm"
 #: what a user may mistake, and what of it the answer names
 MISTAKES = {
     "solve --order 3 --most C": "'C'",
-    "solve --order 3 --most C=0": "^C must",
+    "solve --order 3 --most C=0": "^C of at most 0",
     "solve --order 3 --most C=-1": "^C: ",
     "solve --order 3 --most-acceleration -1": "^C: ",
     "solve --order 3 --least C=9 --most C=3": "^C: ",

@@ -164,9 +164,9 @@ def compare_laws(
         if name in named:
             raise InputError(f"{name} is given twice")
         named[name] = read_law(law) if isinstance(law, str) else motion_law(law)
-    nu: Any = frequency
-    nu = [_phase(each, seconds) for each in nu] if isinstance(nu, list | tuple) else _phase(nu, seconds)
-    return Comparison(named, height, None if height is None else seconds, unit_of(kind), nu, damping)
+    phase: Any = frequency
+    phase = [_phase(each, seconds) for each in phase] if isinstance(phase, list | tuple) else _phase(phase, seconds)
+    return Comparison(named, height, None if height is None else seconds, unit_of(kind), phase, damping)
 
 
 def _phase(frequency: Any, seconds: float | None) -> Any:
