@@ -68,14 +68,30 @@ def test_two_tabs_of_the_browser_keep_their_own_studies(page: Page, served: Serv
         assert velocity(tab) == known
 
 
+FULL = """() => {
+  const key = "optlaws-document-broken";
+  for (let size = 4e6; size >= 1; size /= 2) {
+    try {
+      localStorage.setItem(key, (localStorage.getItem(key) ?? "{") + " ".repeat(size));
+    } catch {}
+  }
+}"""
+
+
 def test_documents_of_an_earlier_version_are_not_lost(page: Page, served: Server) -> None:
     go(page, f"http://{served.host}/")
     address = "#" + served.link(laws=[at_velocity(1.77)]).partition("#")[2]
     kept = json.dumps({"title": "Feeder", "address": address, "closed": 1})
     page.evaluate("text => localStorage.setItem('optlaws-document-abc', text)", kept)
+    page.evaluate(FULL)
     page.reload()
     settle(page)
+    page.get_by_label("Peak velocity B, number").fill("1.8")
+    page.locator("#notice", has_text="The store of this browser is full").wait_for()
     page.get_by_role("button", name="Notes", exact=True).click()
+    # one that cannot be read hides none of the others, and what is not needed can be deleted
+    page.get_by_role("button", name="Delete optlaws-document-broken").click()
+    assert page.evaluate("() => localStorage.getItem('optlaws-document-broken')") is None
     with page.context.expect_page() as opened:
         page.get_by_role("link", name="Feeder").click()
     settle(opened.value)

@@ -1,6 +1,7 @@
 // The document of this tab of the browser: a study with its name and notes. The address holds it, and the browser the last.
 
 import { FIRST, read, written } from "./state.js";
+import { keys, remove, store, stored } from "./store.js";
 import { html } from "./svg.js";
 import { VIEWS } from "./views.js";
 
@@ -15,30 +16,19 @@ export function begun(hash, given) {
   return last === null ? state : read(last);
 }
 
-/** Store an address for the next time that the page is opened; a browser that stores nothing begins anew. */
-export function keep(address) {
-  try {
-    localStorage.setItem(LAST, address);
-  } catch {
-    // the address itself holds the study
-  }
-}
+/** Store an address for the next time that the page is opened; whether the browser took it. */
+export const keep = (address) => store(LAST, address);
 
-function stored(key) {
-  try {
-    return localStorage.getItem(key);
-  } catch {
-    return null;
-  }
-}
-
-/** Titles and addresses of the documents of version 1.0. */
+/** Keys, titles and addresses of the documents of version 1.0; one that cannot be read stands under its key. */
 function earlier() {
-  try {
-    return Object.keys(localStorage).filter((key) => key.startsWith(EARLIER)).map((key) => JSON.parse(stored(key)));
-  } catch {
-    return [];
-  }
+  return keys().filter((key) => key.startsWith(EARLIER)).map((key) => {
+    try {
+      const { title, address } = JSON.parse(stored(key));
+      return { key, title: title || key, address };
+    } catch {
+      return { key, title: key };
+    }
+  });
 }
 
 /** What a document is called: its name, or what it shows. */
@@ -57,7 +47,13 @@ export class Details {
     this.#name.addEventListener("input", () => study.change("name", (state) => (state.name = this.#name.value)));
     this.#notes.addEventListener("input", () => study.change("notes", (state) => (state.notes = this.#notes.value)));
     const done = html("button", { type: "button", text: "Done", onclick: () => this.#dialog.close() });
-    const links = earlier().map(({ title, address }) => html("li", {}, html("a", { href: address, target: "_blank", text: title })));
+    const links = earlier().map(({ key, title, address }) => {
+      const item = html("li", {}, html("a", { href: address, target: "_blank", text: title }), " ", html("button", { type: "button", class: "link", "aria-label": `Delete ${title}`, text: "delete", onclick: () => {
+        remove(key);
+        item.remove();
+      } }));
+      return item;
+    });
     const kept = links.length ? [html("h3", { text: "Documents of an earlier version" }), html("ul", {}, ...links)] : [];
     this.#dialog = html("dialog", { id: "document-dialog", "aria-label": "Document" }, html("h2", { text: "Document" }), html("label", {}, "name", this.#name), html("label", {}, "notes", this.#notes), ...kept, html("div", { class: "buttons" }, done));
     document.body.append(this.#dialog);

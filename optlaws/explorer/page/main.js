@@ -23,6 +23,16 @@ function fill(name, ...parts) {
 
 const notice = (...parts) => fill("notice", ...parts);
 
+const FULL = "The store of this browser is full: it keeps no change. The address holds the study; Save writes a document, and Notes deletes those of an earlier version.";
+let full = false;
+
+/** Keep an address; that the browser cannot is said once. */
+function kept(address) {
+  const before = full;
+  full = !keep(address);
+  if (full && !before) notice(FULL);
+}
+
 const LATER = 2000; // ms after the start: what checks proofs is there when the server is away
 
 /** What takes long, by the path of its question. */
@@ -95,7 +105,7 @@ async function begin() {
   document.body.append(html("datalist", { id: "names" }, ...names.map((name) => html("option", { value: name }))));
   const first = begun(location.hash, state);
   const views = {};
-  const study = new Study(first, render, keep, examples);
+  const study = new Study(first, render, kept, examples);
   const named = (now) => (Object.hasOwn(VIEWS, now.view) ? now.view : "laws");
   const titles = Object.fromEntries(Object.entries(VIEWS).map(([name, { title }]) => [name, title]));
   const choose = tabs(document.getElementById("views"), titles, (key) => study.change("view", (next) => {

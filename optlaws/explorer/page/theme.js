@@ -1,5 +1,7 @@
 // Dark and light: as the system says, unless the reader chose.
 
+import { store, stored } from "./store.js";
+
 const KEY = "optlaws-theme";
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
@@ -10,18 +12,10 @@ function current() {
 export function toggle() {
   const chosen = current() === "dark" ? "light" : "dark";
   document.documentElement.dataset.theme = chosen;
-  try {
-    localStorage.setItem(KEY, chosen);
-  } catch {
-    // a browser that keeps nothing forgets the choice
-  }
+  store(KEY, chosen);
 }
 
 export function restore() {
-  try {
-    const chosen = localStorage.getItem(KEY);
-    if (chosen === "dark" || chosen === "light") document.documentElement.dataset.theme = chosen;
-  } catch {
-    // as the system says
-  }
+  const chosen = stored(KEY);
+  if (chosen === "dark" || chosen === "light") document.documentElement.dataset.theme = chosen;
 }

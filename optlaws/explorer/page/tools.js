@@ -28,7 +28,7 @@ export class Tools {
     this.#export = button("Export", "For a controller, with what it will run", () => exporting.open());
     root.replaceChildren(
       button("Open", "Open a problem file, a law, a table or a document", () => opening.choose()), button("Notes", "Name and notes", () => details.open()),
-      this.#undo, this.#redo, link, this.#export, saves(study, notice, shown), button("Print", "A report on one page: print it, or save it as PDF", () => print()), settings(study), button("◐", "Dark or light", toggle),
+      this.#undo, this.#redo, link, this.#export, saves(study, notice, shown), button("Print", "A report on one page: print it, or save it as PDF", () => print()), settings(study, notice), button("◐", "Dark or light", toggle),
     );
     addEventListener("keydown", (event) => this.#key(event, study));
   }
@@ -64,12 +64,12 @@ function saves(study, notice, shown) {
 }
 
 /** Units: the page begins anew with them, the study stays. */
-function settings(study) {
+function settings(study, notice) {
   const field = (name, options, value, act) => {
     const select = html("select", { "aria-label": name }, ...Object.entries(options).map(([key, text]) => html("option", { value: key, text, translate: "no" })));
     select.value = value;
     select.addEventListener("change", () => {
-      act(select.value);
+      if (!act(select.value)) return void notice("The store of this browser is full, so that it keeps no units: delete what is not needed, under Notes.");
       study.keep();
       reached(present).then(() => location.reload());
     });

@@ -1,6 +1,8 @@
 // Units of what is shown: lengths in millimetres or inches, angles in degrees or radians, speeds in rpm or 1/min. Numbers
 // come with the unit in which they are, and are written once; what the reader writes into fields has the unit behind it.
 
+import { store, stored } from "./store.js";
+
 const KEY = "optlaws-units";
 const INCH = 25.4;
 const DEGREE = Math.PI / 180;
@@ -15,7 +17,7 @@ export const CHOICES = { length: ["mm", "in"], angle: ["deg", "rad"], speed: ["r
 
 function read() {
   try {
-    return JSON.parse(localStorage.getItem(KEY)) ?? {};
+    return JSON.parse(stored(KEY)) ?? {};
   } catch {
     return {};
   }
@@ -27,8 +29,9 @@ export function chosen() {
   return Object.fromEntries(Object.entries(CHOICES).map(([name, all]) => [name, all.includes(kept[name]) ? kept[name] : all[0]]));
 }
 
+/** Whether the browser keeps a choice. */
 export function choose(name, unit) {
-  localStorage.setItem(KEY, JSON.stringify({ ...chosen(), [name]: unit }));
+  return store(KEY, JSON.stringify({ ...chosen(), [name]: unit }));
 }
 
 const table = Object.assign({}, ...Object.values(chosen()).map((unit) => SWITCHED[unit] ?? {}));
