@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from lazy_loader import attach_stub
 
-from optlaws.spelling import known_spelling
 
 if TYPE_CHECKING:
     from _thread import RLock as Lock
@@ -132,10 +131,12 @@ def face(
         if removed and name in removed:
             # no AttributeError, whose words `from package import name` leaves out
             raise ImportError(f"{module} has no {name} any more: {removed[name]}", name=module)
-        other = known_spelling(name, names)
-        if other != name:
-            return load_as_own(other)
         if name not in names:
+            from optlaws.spelling import known_spelling
+
+            other = known_spelling(name, names)
+            if other != name:
+                return load_as_own(other)
             raise AttributeError(f"module {module!r} has no attribute {name!r}", name=name, obj=sys.modules[module])
         _import_circles()
         namespace[name] = load(name)

@@ -20,7 +20,7 @@ from optlaws import (
 )
 from optlaws.verification import verify
 from tests.internals.mechanisms import above
-from tests.internals.synthesis import exchange
+from tests.internals.synthesis import few_families
 
 SPECTRUM = ((16.0, 0.2), (18.0, 1.0), (19.0, 0.4), (22.0, 0.9), (24.0, 0.0), (26.0, 0.0), (27.0, 0.3))
 
@@ -210,7 +210,7 @@ def test_of_many_rows_those_that_bind_give_the_optimum_of_all(
         assert best.status.value == "optimal"
         assert best.gap <= 1e-9
         with monkeypatch.context() as patch:
-            patch.setattr(exchange, "_MANY", 10_000)
+            patch.setattr(few_families, "_MANY", 10_000)
             assert synthesize(problem).objective == pytest.approx(best.objective, rel=1e-9)
 
 

@@ -31,7 +31,7 @@ def test_curves_of_the_nomogram_are_named() -> None:
 
 
 def test_limits_are_named_by_their_curves() -> None:
-    labels = {f"limit of each constant alone, {curve}" for curve in ("B = 1.641", "B free")}
+    labels = {f"best possible of each, {curve}" for curve in ("B = 1.641", "B free")}
     assert labels <= set(texts("fronts/d-over-c"))
 
 
