@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from lazy_loader import attach_stub
 
-
 if TYPE_CHECKING:
     from _thread import RLock as Lock
 
