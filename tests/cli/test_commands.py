@@ -496,7 +496,7 @@ def test_verify_says_in_its_exit_code_what_is_partly_checked(
 RESULTS = sorted((ROOT / "results").glob("*/*.json"))
 
 
-@pytest.mark.sample(6)
+@pytest.mark.sample(12)
 @pytest.mark.parametrize("file", RESULTS, ids=lambda file: f"{file.parent.name}/{file.stem}")
 def test_our_own_results_are_proven_or_said_not_to_be_checked(file: Path, capsys: Capture) -> None:
     assert exit_code(["verify", str(file)]) in {0, 3}
@@ -515,6 +515,7 @@ def test_what_nobody_wrote_and_what_lost_its_proof_is_refused(tmp_path: Path, ca
         capsys.readouterr()
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("file", ["cam_rocker/cam.json", "fronts/fronts.json", "loader_optimal/laws.json"])
 def test_a_false_solution_inside_results_without_proofs_is_not_passed_over(
     file: str, tmp_path: Path, capsys: Capture

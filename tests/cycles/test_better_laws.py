@@ -134,6 +134,7 @@ def test_a_valve_without_a_dwell_is_bettered_within_the_tolerance_that_is_named(
         assert np.ptp(cycle.at_angle(beside % 360.0, 2)) <= 1e-4 * cycle.peak(2)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("name", ["c99", "codesys-xyva", "codesys-cambuilder", "iec-st", "twincat-nc2", "kas"])
 def test_a_cycle_of_least_acceleration_has_no_better_one_after_its_export(name: str, tmp_path: Path) -> None:
     cycle = Cycle(

@@ -184,7 +184,7 @@ def test_a_limit_of_the_energy_is_shared() -> None:
     assert free.objective * (1 - 1e-9) <= kept.lower_bound <= kept.objective
 
 
-@pytest.mark.sample(6)
+@pytest.mark.sample(12)
 @pytest.mark.parametrize("regeneration", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize(
     ("gravity", "dry", "size"), [(19.6, 5.0, 1.0), (-30.0, 2.0, 1.0), (19.6, 0.0, 1e-9), (0.0, 3.0, 1e6)]

@@ -120,6 +120,7 @@ def test_numbers_of_an_axis_that_are_changed_are_found(axis: dict[str, Any]) -> 
         assert not verify(changed(axis, *found[i])).proven, found[i]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("name", sorted(file.parent.name for file in (ROOT / "results").glob("*/cycle.json")))
 def test_every_number_of_a_stored_cycle_that_is_changed_is_found(name: str) -> None:
     data = json.loads((ROOT / "results" / name / "cycle.json").read_text("utf-8"))
