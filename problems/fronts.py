@@ -233,6 +233,8 @@ def draw(picture: Picture, fronts: Sequence[Front]) -> Figure:
         else:
             _corners(axes, picture, fronts, colours)
         axes.set(xlim=x, ylim=y, title=picture.title)
+        if own := axes.get_legend():
+            own.remove()  # all of it stands beside the picture
         figure.legend(loc="outside right upper")
         return figure
 

@@ -49,7 +49,7 @@ def draw_front(front: Front | ProvenFront, axes: Axes | None = None, **style: An
         named = {"label": f"order {problem.order}, {problem.basis!r}", **look, **style}
         artists: list[Artist] = list(axes.plot(curve.at, curve.values, **named))
         colour = style.get("color", artists[0].get_color())  # type: ignore[attr-defined] # of a line
-        bound: dict[str, Any] = {"color": GREY, "label": "no law below" * (not axes.get_legend())}
+        bound: dict[str, Any] = {"color": GREY, "label": "lower bound" * (not axes.get_legend())}
         if every:
             artists += axes.plot(below.at, below.values, linewidth=0.8, **bound)
         else:
@@ -97,7 +97,7 @@ def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) ->
         shown = np.unique(np.concatenate([times, *inside]))
         between = [front(float(time)) for time in shown]
         below = np.maximum([point.lower_bound for point in between], foot)
-        bound = axes.plot(MILLI * shown, below, color=GREY, linewidth=0.9, label="no law below")
+        bound = axes.plot(MILLI * shown, below, color=GREY, linewidth=0.9, label="lower bound")
         axes.fill_between(
             MILLI * shown,
             below,
@@ -108,7 +108,7 @@ def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) ->
         )
     else:
         below = np.maximum(lower, foot)
-        bound = axes.plot(MILLI * times, below, color=GREY, linewidth=0.0, marker="_", label="no law below")
+        bound = axes.plot(MILLI * times, below, color=GREY, linewidth=0.0, marker="_", label="lower bound")
     least = axes.axvline(MILLI * front.fastest.duration, color=WARM, linewidth=1.0, linestyle="--", label="least time")
     axes.set(xlabel="time of the move in ms", ylabel=f"least {front.minimise},\n{front.unit}")
     if foot:

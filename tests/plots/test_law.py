@@ -114,7 +114,7 @@ def test_fronts_in_one_panel_are_named_apart() -> None:
     curve, _ = proven.plot(panel)
     assert curve.get_linewidth() > 0.0
     names = [text.get_text() for text in panel.get_legend().get_texts()]
-    assert names == ["order 3, Chebyshev(degree=5)", "no law below"] + [
+    assert names == ["order 3, Chebyshev(degree=5)", "lower bound"] + [
         f"order {order}, Chebyshev(degree=5)" for order in (4, 5)
     ]
 

@@ -102,6 +102,6 @@ def _in_words(name: str, verification: Verification, *, whole: bool) -> str:
     word = "not proven" if not verification.proven else "proven" if verification.claims else "not checked"
     if whole:
         return f"{name}: {word}\n{verification}\n"
-    bound = "" if verification.bound is None else f", no law below {verification.bound!r}"
+    bound = "" if verification.bound is None else f", lower bound {verification.bound!r}"
     gap = "" if verification.gap is None else f", gap at most {verification.gap:.1e}"
     return f"{name}: {word}, {len(verification.claims)} claims{bound}{gap}"

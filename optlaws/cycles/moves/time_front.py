@@ -241,7 +241,7 @@ class TimeFront(JsonText):
         >>> import optlaws
         >>> move = optlaws.fastest(optlaws.Problem(order=3), stroke="100 mm", limits={"jerk": "300 m/s^3"})
         >>> [artist.get_label() for artist in optlaws.time_front(move, "velocity", points=2).plot()]
-        ['velocity', 'no law below', 'least time']
+        ['velocity', 'lower bound', 'least time']
         """
         from optlaws.plots.front import draw_time_front
 

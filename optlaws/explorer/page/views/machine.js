@@ -434,7 +434,7 @@ function table({ rows, active }, names) {
 
 /** What no law beats in each move, beside what the law that is shown takes. */
 function limitsTable(moves) {
-  const head = html("tr", {}, ...["in the move", "peak", "no law below", "RMS", "no law below"].map((text, i) => html("th", { scope: "col", class: i ? "number" : null, text })));
+  const head = html("tr", {}, ...["in the move", "peak", "lower bound", "RMS", "lower bound"].map((text, i) => html("th", { scope: "col", class: i ? "number" : null, text })));
   const rows = moves.map(({ name, peak, rms }) => html("tr", {}, html("th", { scope: "row", text: name }), ...[...peak, ...rms].map((value) => html("td", { class: "number", text: value === null ? "—" : number(value) }))));
   return html("table", { id: "machine-least", "aria-label": "What no law that never turns back can beat in each move" }, html("thead", {}, head), html("tbody", {}, ...rows));
 }
