@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from itertools import accumulate, pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,7 +68,7 @@ def spline(rng: np.random.Generator) -> tuple[Motion, float]:
     a = k**3 * (10.0 - 15.0 * k + 6.0 * k * k)
     a[1:-1] += 0.04 * rng.uniform(-1.0, 1.0, len(k) - 2)
     degree = int(rng.choice([3, 5]))
-    rest = [(nu, 0.0) for nu in range(1, 1 + degree // 2)]
+    rest: Any = [(nu, 0.0) for nu in range(1, 1 + degree // 2)]
     law = make_interp_spline(k, a, degree, bc_type=(rest, rest))
     return law, greatest(law.derivative(2), 0.0, 1.0)
 
@@ -100,7 +101,7 @@ def chained(pieces: list[Piece]) -> tuple[Motion, float]:
         for i, (low, high) in enumerate(pairwise(ends)):
             inside = (at >= low) & (at <= high)
             y[inside] = levels[i] + pieces[i].stroke * pieces[i].law((at[inside] - low) / (high - low))
-        return y + turns * levels[-1]
+        return np.asarray(y + turns * levels[-1])
 
     return motion, max(abs(piece.stroke) * piece.peak / piece.length**2 for piece in pieces)
 
