@@ -39,8 +39,8 @@ def test_decimal_commas_are_read(page: Page, served: Server) -> None:
 def test_numbers_are_shown_in_the_units_of_the_reader(page: Page, served: Server) -> None:
     go(page, served.link(view="cycle", laws=[OPTIMAL]))
     page.get_by_text("Settings").click()
-    page.get_by_label("length").select_option("in")
-    page.wait_for_load_state()
+    with page.expect_navigation():
+        page.get_by_label("length").select_option("in")
     settle(page)
     shown = served.ask("cycle", {"study": example()})
     peak = shown["panels"][1]["peaks"][-1]
