@@ -15,6 +15,7 @@ from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, m
 from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on
 from optlaws.cycles.old_tables.standard import Chain, Outline, criterion, spline_of
 from optlaws.numbers import Array
+from optlaws.numerics.roots import bisect
 
 #: standard deviations by which rows are off a motion at most
 NOISE_ROOM = 4.0
@@ -398,11 +399,14 @@ class _Region:
         if chains and self._left_out(chains[0]):
             x, y, chains = self.x, self.y, self._chains(places)
         chain = chains[0] if chains else None
-        plain = chain is not None and self._likely(chain.squares)
+        plain, count = chain is not None and self._likely(chain.squares), len(x)
         fits = tuple(fits_of(x, y, self.noise, self.ends, self.advance, simple=plain))
         while fits and not plain and self._left_out_beside(fits[0]):
             x, y = self.x, self.y
             fits = tuple(fits_of(x, y, self.noise, self.ends, self.advance))
+        if len(x) < count:  # the laws were compared with rows that are left out by now
+            chains = self._chains(places)
+            chain = chains[0] if chains else None
         at_seam = self._ends_at_seam(fits)
         if at_seam is not None:
             self.ends = at_seam
@@ -622,12 +626,5 @@ def _turn(fit: CurveFit, place: float) -> float:
     if not turns.size:
         return place
     i = int(turns[np.argmin(np.abs(at[turns] - place))])
-    low, high = float(at[i]), float(at[i + 1])
-    sign = velocity[i]
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        if float(fit.values(np.array([middle]), 1)[0]) * sign > 0.0:
-            low = middle
-        else:
-            high = middle
-    return 0.5 * (low + high)
+    ends = bisect(lambda x: float(fit.values(np.array([x]), 1)[0]) * velocity[i] > 0.0, float(at[i]), float(at[i + 1]))
+    return 0.5 * sum(ends)
