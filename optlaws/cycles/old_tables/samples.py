@@ -209,17 +209,9 @@ def goes_on(places: Array, heights: Array, noise: Array) -> bool:
     """
     ends, variance = [], 0.0
     for side, seam in ((slice(0, _BESIDE_SEAM), 0), (slice(-1 - _BESIDE_SEAM, -1), -1)):
-        u = (places[side] - places[seam]) / np.ptp(places[side])
-        powers, y, fits = u[:, None] ** np.arange(4), heights[side], []
-        for row in range(len(u)):  # less the row that is farthest off
-            others = np.arange(len(u)) != row
-            inverse = np.linalg.pinv(powers[others])
-            fit = inverse @ y[others]
-            left = y[others] - powers[others] @ fit
-            fits.append((float(left @ left), float(fit[0]), float(inverse[0] @ inverse[0])))
-        squares, end, share = min(fits)
+        end, squares, share = _beyond(places[side], heights[side], places[seam], 3)
         ends.append(end)
-        variance += max(squares / (_BESIDE_SEAM - 5), float(noise[side].max()) ** 2) * share
+        variance += max(squares, float(noise[side].max()) ** 2) * share
     # the row that closes the turn is that of its beginning, or is measured
     return bool(abs(ends[0] + heights[-1] - heights[0] - ends[1]) <= _STEP * np.sqrt(variance))
 
@@ -265,8 +257,8 @@ def _far_points(places: Array, heights: Array, noise: float) -> Mask:
         off = 0.0
         for degree in _DEGREES_BESIDE:
             sides = [_beyond(x[rows], rest[rows], x[worst], degree) for rows in _beside(worst, 2 * degree + 1)]
-            off = min(sign * (rest[worst] - end) for end, _ in sides)
-            if max(left for _, left in sides) <= _FITTING * noise:
+            off = min(sign * (rest[worst] - end) for end, *_ in sides)
+            if max(left for _, left, _ in sides) <= (_FITTING * noise) ** 2:
                 break
         if off > _BOTH * outside[worst]:
             taken.append(worst)
@@ -299,15 +291,19 @@ def _beside(row: int, wide: int) -> tuple[slice, slice]:
     return slice(max(row - wide, 0), row), slice(row + 1, row + 1 + wide)
 
 
-def _beyond(places: Array, heights: Array, place: float, degree: int) -> tuple[float, float]:
-    """Where points go on to by the polynomial of all but the one farthest off it, and how far the others are off it."""
+def _beyond(places: Array, heights: Array, place: float, degree: int) -> tuple[float, float, float]:
+    """Where points go on to by the polynomial of all but the one farthest off it.
+
+    With the variance of the others about it, and what the variance of noise is multiplied by at the place.
+    """
     u = (places - place) / np.ptp(places)
     powers = u[:, None] ** np.arange(degree + 1)
     fits = []
     for row in range(len(u)):
         others = np.arange(len(u)) != row
-        fit = np.linalg.lstsq(powers[others], heights[others], rcond=None)[0]
+        inverse = np.linalg.pinv(powers[others])
+        fit = inverse @ heights[others]
         left = heights[others] - powers[others] @ fit
-        fits.append((float(np.sqrt(left @ left / max(len(u) - degree - 2, 1))), float(fit[0])))
-    size, end = min(fits)
-    return end, size
+        fits.append((float(left @ left) / max(len(u) - degree - 2, 1), float(fit[0]), float(inverse[0] @ inverse[0])))
+    variance, end, share = min(fits)
+    return end, variance, share
