@@ -239,25 +239,25 @@ def _least(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) ->
         law = solution.law
         if law.constants.C.value >= C * (1.0 - _LEAST_GAIN):
             return None
-        if deviation(law, old) <= share:
+        apart, farthest = _farthest(law, old)
+        if apart <= share:
             return solution
-        beyond = _beyond(law, old, share)
+        beyond = _beyond(law, old, share, farthest)
         binding = np.abs(np.asarray(law(places)) - heights) > 0.95 * room
         near = np.abs(places[:, None] - beyond).min(axis=1) <= _APART
         places = np.sort(np.concatenate([places[binding & ~near], beyond]))
     raise SolverFailure("the places where a law is at its tolerance do not settle", problem=problem)
 
 
-def _beyond(law: MotionLaw, old: MotionLaw, share: float) -> Array:
-    """Where the difference of two laws is greatest, of those places at which it is more than a share."""
+def _beyond(law: MotionLaw, old: MotionLaw, share: float, farthest: float) -> Array:
+    """Where the difference of two laws has a maximum of more than a share; one place is where it is greatest."""
     k = np.linspace(0.0, 1.0, _LOOKS)
     apart = np.abs(np.asarray(law(k)) - np.asarray(old(k)))
     before, here, after = apart[:-2], apart[1:-1], apart[2:]
     tops = (here > share) & (here >= before) & (here > after)
     bend = (before - 2.0 * here + after)[tops]
     parabolas = k[1:-1][tops] + 0.5 * k[1] * (before - after)[tops] / bend
-    greatest = greatest_difference(law, old, _breaks(law, old))[1]
-    return np.append(parabolas[np.abs(parabolas - greatest) > k[1]], greatest)
+    return np.append(parabolas[np.abs(parabolas - farthest) > k[1]], farthest)
 
 
 def gain(new: Stretch, old: Stretch) -> MoveGain:
@@ -273,8 +273,10 @@ def gain(new: Stretch, old: Stretch) -> MoveGain:
 
 def deviation(law: MotionLaw, other: MotionLaw) -> float:
     """The greatest difference of two laws over the whole of k."""
-    return abs(float(greatest_difference(law, other, _breaks(law, other))[0]))
+    return _farthest(law, other)[0]
 
 
-def _breaks(law: MotionLaw, other: MotionLaw) -> Array:
-    return np.unique([0.0, 1.0, *law.breaks, *other.breaks])
+def _farthest(law: MotionLaw, other: MotionLaw) -> tuple[float, float]:
+    """The greatest difference of two laws, and where it is."""
+    size, place = greatest_difference(law, other, np.unique([0.0, 1.0, *law.breaks, *other.breaks]))
+    return abs(size), place

@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from optlaws.cycles.old_tables.motion import FittedMotion, FittedMove
+from optlaws.cycles.old_tables.motion import SHORTEST, FittedMotion, FittedMove
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
@@ -21,8 +21,6 @@ from optlaws.tolerances import VALUE_ROUNDING
 
 StretchKind: TypeAlias = Literal["dwell", "rise", "return"]
 
-#: of the master's length: what is shorter is no stretch of its own
-_SHORTEST = 1.0 / 3600.0
 #: of a move: breaks that are nearer to its ends are these
 _APART = 1e-9
 #: at both ends of a piece of degree 5: its position, velocity and acceleration
@@ -92,14 +90,14 @@ def seam_of(heights: Array, room: float) -> float:
 def stretches_of(motion: FittedMotion) -> Iterator[Stretch]:
     """The dwells and moves of a fitted motion, from its first place to its last one."""
     x, y = motion.samples.places, motion.samples.heights
-    least, least_rise = _SHORTEST * float(np.ptp(x)), VALUE_ROUNDING * float(np.ptp(y))
+    least, least_rise = SHORTEST * float(np.ptp(x)), VALUE_ROUNDING * float(np.ptp(y))
     at, level = float(x[0]), motion.moves[0].position_before(float(x[0]))
     for move in motion.moves:
         start = move.start if move.start - at > least else at
         if start > at:
             yield _between(at, start, level, move.low, least_rise)
         stop = move.stop if float(x[-1]) - move.stop > least else float(x[-1])
-        law = move.name or _law_of(move, x, y)
+        law = move.name or _law_of(move)
         part = Stretch(
             "rise" if move.high > move.low else "return", start, stop, move.low, move.high, law, move.nearest,
             peaks=move.peaks,
@@ -123,21 +121,16 @@ def _between(start: float, stop: float, low: float, high: float, least: float) -
     return Stretch("rise" if high > low else "return", start, stop, low, high, name, name, peaks=peaks)
 
 
-def _law_of(move: FittedMove, x: Array, y: Array) -> MotionLaw:
-    """The law of a move that is no standard law: of its spline, or of lines between rows where these are too few."""
-    fit = move.fits[0] if move.fits else None
-    places = x if fit is None else fit.breaks
+def _law_of(move: FittedMove) -> MotionLaw:
+    """The law of a move that is no standard law, of its spline."""
+    fit = move.fits[0]
     apart = _APART * (move.stop - move.start)
-    inner = (places > move.start + apart) & (places < move.stop - apart)
-    ends = np.concatenate([[move.start], places[inner], [move.stop]])
-    if fit is None:
-        heights = np.concatenate([[move.low], y[inner], [move.high]])[:, None]
-        begins, stops = heights[:-1], heights[1:]
-    else:
-        begins, stops = (
-            np.column_stack([fit.values(at, nu) for nu in range(_DERIVATIVES)])
-            for at in (ends[:-1], np.nextafter(ends[1:], -inf))
-        )
+    inner = (fit.breaks > move.start + apart) & (fit.breaks < move.stop - apart)
+    ends = np.concatenate([[move.start], fit.breaks[inner], [move.stop]])
+    begins, stops = (
+        np.column_stack([fit.values(at, nu) for nu in range(_DERIVATIVES)])
+        for at in (ends[:-1], np.nextafter(ends[1:], -inf))
+    )
     states = zip(pairwise(ends.tolist()), begins.tolist(), stops.tolist(), strict=True)
     return law_of_pieces([hermite(low, high, first, last) for (low, high), first, last in states])
 
