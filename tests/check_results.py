@@ -36,12 +36,12 @@ def differences(kept: Path, anew: Path, names: Collection[str], unsteady: Collec
     """What is in one place alone, and what says something else; `names` are those that the problem files wrote."""
     files = [file.relative_to(kept) for file in kept.rglob("*") if file.is_file()]
     there = {file.as_posix() for file in files if file.parts[0] not in unsteady}
-    found = [f"{name}: {'not written' if name in there else 'not kept'}" for name in sorted(there ^ set(names))]
+    differing = [f"{name}: {'not written' if name in there else 'not kept'}" for name in sorted(there ^ set(names))]
     for name in sorted(there & set(names)):
         first, second = ((folder / name).read_bytes() for folder in (kept, anew))
         if not say_the_same(first, second, Path(name).suffix):
-            found.append(f"{name}: says something else")
-    return found
+            differing.append(f"{name}: says something else")
+    return differing
 
 
 def main(unsteady: Collection[str]) -> int:
@@ -51,10 +51,10 @@ def main(unsteady: Collection[str]) -> int:
         shutil.copytree(ROOT / "results", Path(folder, "results"), ignore=lambda *_: unsteady)
         with ProcessPoolExecutor(2, get_context("spawn"), initializer=os.chdir, initargs=(folder,)) as pool:
             names = [name for some in pool.map(written, problems) for name in some]
-        found = differences(ROOT / "results", Path(folder, "results"), names, unsteady)
-    found.append("results/ differs from what the problem files give" if found else "results/ agrees with them")
-    sys.stdout.writelines(f"{line}\n" for line in found)
-    return len(found) > 1
+        differing = differences(ROOT / "results", Path(folder, "results"), names, unsteady)
+    differing.append("results/ differs from what the problem files give" if differing else "results/ agrees with them")
+    sys.stdout.writelines(f"{line}\n" for line in differing)
+    return len(differing) > 1
 
 
 if __name__ == "__main__":

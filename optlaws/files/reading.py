@@ -14,7 +14,7 @@ import stat
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, Self, TypeGuard
 
 from optlaws.echo import shortened, unknown_key
 from optlaws.errors import InputError
@@ -306,6 +306,15 @@ def _check_leaf(value: object, name: str) -> None:
         raise InputError(f"{name} holds {shortened(value)}, beyond all floats")
     if isinstance(value, str) and not storable(value):
         raise InputError(f"{name} holds text with NUL or surrogates: {shortened(value)}")
+
+
+def is_number(value: object) -> TypeGuard[float]:
+    """Whether plain data, as JSON and TOML have them, are a number: a switch is none.
+
+    >>> [is_number(value) for value in (2, 0.5, True, "2")]
+    [True, True, False, False]
+    """
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def storable(value: str) -> bool:

@@ -19,7 +19,7 @@ from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.files.reading import storable
+from optlaws.files.reading import is_number, storable
 from optlaws.tolerances import SHOWN_DIGITS
 
 _FILE_NOISE = 1e-9  # numbers of two files that differ by less say the same: a gap of 1e-10 is as good as one of 1e-9
@@ -138,20 +138,16 @@ def _same_values(first: Any, second: Any, *, relative: float, key: str = "", sca
             if not (name in _WORKING or (key in _PROOFS and isinstance(first[name], list)))
         )
     if isinstance(first, list) and isinstance(second, list):
-        scale = max((abs(value) for value in [*first, *second] if _is_number(value)), default=0.0)
+        scale = max((abs(value) for value in [*first, *second] if is_number(value)), default=0.0)
         return len(first) == len(second) and all(
             _same_values(a, b, relative=relative, key=key, scale=scale) for a, b in zip(first, second, strict=True)
         )
-    if _is_number(first) and _is_number(second):
+    if is_number(first) and is_number(second):
         allowed = max(_FILE_NOISE, relative * max(scale, abs(first), abs(second)), _PEAK_PLACE if key == "k" else 0.0)
         return bool(first == second or abs(first - second) <= allowed)
     if isinstance(first, str) and isinstance(second, str):
         return _same_texts(first, second)
     return first is second
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 MARK = "made by optlaws"

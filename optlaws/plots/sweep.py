@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optlaws.errors import InputError
+from optlaws.files.reading import is_number
 from optlaws.plots.style import BLUES, DISTINCT, GREEN, GREY, WARM, new_figure, plot_style, titled
 
 if TYPE_CHECKING:
@@ -53,7 +54,7 @@ def sweep_figure(headings: Sequence[str], rows: Sequence[Sequence[Cell]], title:
 
 def _places(values: Sequence[Any]) -> tuple[Array, list[str] | None]:
     """Numbers as places on an axis; other values by their order, with their names."""
-    if all(isinstance(value, int | float) and not isinstance(value, bool) for value in values):
+    if all(map(is_number, values)):
         return np.array(values, dtype=np.float64), None
     names = list(dict.fromkeys(map(str, values)))
     return np.array([names.index(str(value)) for value in values], dtype=np.float64), names

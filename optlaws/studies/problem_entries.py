@@ -7,6 +7,7 @@ from math import ceil, isfinite, log10
 from typing import Any
 
 from optlaws.errors import located
+from optlaws.files.reading import is_number
 from optlaws.synthesis import Problem, Range, Solution, Status
 from optlaws.synthesis.problem.fields import FREE, ConstantBounds
 from optlaws.synthesis.problem.problem import ENTRIES
@@ -48,7 +49,7 @@ def shown(name: str, value: Any) -> str | float | int:
         if not isfinite(high):
             return f"at least {low:g}"
         return f"{low:g} to {high:g}" if low > 0.0 else f"at most {high:g}"
-    return value if isinstance(value, int | float) and not isinstance(value, bool) else str(value)
+    return value if is_number(value) else str(value)
 
 
 def _brief(part: Any) -> str:

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
+from optlaws.files.reading import is_number
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
@@ -277,18 +278,14 @@ def equal_data(first: Any, second: Any) -> bool:
     """Whether plain data are equal, numbers up to the rounding of the greatest beside them."""
     if isinstance(first, dict) and isinstance(second, dict):
         return first.keys() == second.keys() and all(equal_data(first[name], second[name]) for name in first)
-    if isinstance(first, list) and isinstance(second, list) and first and all(map(_is_number, [*first, *second])):
+    if isinstance(first, list) and isinstance(second, list) and first and all(map(is_number, [*first, *second])):
         allowed = _STORED_COEFFICIENT * max(map(abs, first))
         return len(first) == len(second) and all(abs(a - b) <= allowed for a, b in zip(first, second, strict=True))
     if isinstance(first, list) and isinstance(second, list):
         return len(first) == len(second) and all(map(equal_data, first, second))
-    if _is_number(first) and _is_number(second):
+    if is_number(first) and is_number(second):
         return bool(abs(first - second) <= _STORED_COEFFICIENT * max(abs(first), 1.0))
     return bool(first == second)
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def _read(read: Callable[[Plain], Kind], data: Plain | None) -> Kind | None:

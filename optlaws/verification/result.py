@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 
 from optlaws.echo import shortened, unknown_key
 from optlaws.errors import InputError
+from optlaws.files.reading import is_number
 from optlaws.numbers import bounded
 from optlaws.synthesis.limits.rounding import rounded_down
 from optlaws.synthesis.problem.problem import Problem
@@ -183,11 +184,6 @@ def _agree(stated: Any, known: Any, size: float) -> bool:
         greater = max(abs(stated), abs(known))
         return bool(greater <= _NOTHING * size or abs(stated - known) <= STORED_VALUE * greater + _BESIDE * size)
     return bool(stated == known) and type(stated) is type(known)
-
-
-def is_number(value: object) -> bool:
-    """Whether a value is a number, and no switch."""
-    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def of_number(claim: Callable[[float], Claim]) -> Rule:

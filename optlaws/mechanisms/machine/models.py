@@ -11,7 +11,7 @@ import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.files.reading import check_names
+from optlaws.files.reading import check_names, is_number
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.motion.quantities import either, quantity
 from optlaws.numbers import Array, NumberOrQuantity, not_negative, numbers, positive
@@ -240,7 +240,7 @@ def mode(machine: StateSpace, number: object) -> Mode:
         raise InputError("the machine has no vibrating mode: use peaks of its outputs in the dwell instead")
     if isinstance(number, str):
         raise InputError(f"mode is a number from 1 to {len(vibrations)}, before the output: residual(1, {number!r})")
-    if not isinstance(number, int | float) or isinstance(number, bool) or number not in range(1, len(vibrations) + 1):
+    if not is_number(number) or number not in range(1, len(vibrations) + 1):
         raise InputError(f"mode must be a whole number from 1 to {len(vibrations)}, got {number!r}")
     return vibrations[int(number) - 1]
 
