@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qs, urlsplit
@@ -15,7 +16,7 @@ from tests.explorer.talk import OPTIMAL, Server, written
 from tests.internals.explorer import cam_view, cycle_view
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Page
+    from playwright.sync_api import Page, Route
 
 CONSTANTS = ("B", "C", "D", "J", "rms_c")
 NONE = {"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}}
@@ -23,7 +24,7 @@ NONE = {"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}}
 
 def settle(page: Page) -> None:
     """Wait until every question is answered."""
-    page.locator("body[data-work=settled]").wait_for(timeout=15_000)
+    page.locator("body[data-work=settled]").wait_for(timeout=60_000)
 
 
 def go(page: Page, address: str) -> None:
@@ -63,18 +64,26 @@ def test_fifty_drags_end_on_the_last_value(page: Page, served: Server, watch: Wa
     box = page.locator(".handle").bounding_box()
     assert box is not None
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    asked = watch.paths.count("/api/laws")
+    before = watch.paths.count("/api/laws")
+    in_flight: list[Route] = []
+
+    def hold(route: Route) -> None:
+        in_flight.append(route)
+
+    page.route("**/api/laws", hold)
     page.mouse.move(x, y)
     page.mouse.down()
     for step in range(1, 51):
         page.mouse.move(x + 2 * step, y)
     page.mouse.up()
+    assert in_flight
+    page.unroute("**/api/laws")  # what is held goes on
     settle(page)
     last = velocity(page)
     assert last > 1.9
     assert texts(page) == told(served, at_velocity(last))
-    # one question in flight: those between were never asked
-    assert watch.paths.count("/api/laws") - asked < 50
+    # while one question is not answered, of those after it only the last is kept
+    assert watch.paths.count("/api/laws") - before < 10
     page.get_by_role("button", name="Undo").click()
     settle(page)
     assert velocity(page) == 1.7
@@ -407,7 +416,7 @@ def test_a_question_that_takes_long_can_be_stopped_and_undone(page: Page, served
     page.get_by_label("Objective as a formula").fill("peak(cos(7*c)*sin(3*b))")
     plane = page.locator("#plane").bounding_box()
     page.get_by_label("Objective as a formula").press("Enter")
-    page.locator("#work", has_text="optimal laws and their bounds · 1 s").wait_for(timeout=15_000)
+    page.locator("#work", has_text=re.compile(r"optimal laws and their bounds · \d+ s")).wait_for(timeout=60_000)
     assert page.locator("#plane").bounding_box() == plane
     page.get_by_role("button", name="Stop").click()
     settle(page)

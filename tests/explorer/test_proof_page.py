@@ -29,7 +29,7 @@ def test_a_file_is_checked_on_the_page_without_the_server(page: Page, served: Se
 
     def verdict(name: str) -> str:
         page.locator("#proof-file").set_input_files(tmp_path / name)
-        page.locator("body[data-work=ready] #verdict", has_text=name).wait_for(timeout=15_000)
+        page.locator("body[data-work=ready] #verdict", has_text=name).wait_for(timeout=60_000)
         return page.locator("#verdict").inner_text()
 
     assert verdict("law.json").startswith("proven law.json: 15 proven")
@@ -70,7 +70,7 @@ def test_a_dropped_file_is_checked_when_the_server_is_away(page: Page, served: S
         }""",
         law.read_text("utf-8"),
     )
-    page.locator("#proof-verdict", has_text="law.json: 15 proven").wait_for(timeout=15_000)
+    page.locator("#proof-verdict", has_text="law.json: 15 proven").wait_for(timeout=60_000)
 
 
 def test_proofs_of_a_motion_are_those_of_its_laws(served: Server) -> None:
