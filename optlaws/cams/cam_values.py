@@ -11,6 +11,9 @@ from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import positive
 from optlaws.cams.forces import CamForces
 from optlaws.cams.springs_and_flywheels import CONTACT, GREATEST, Spring
+from optlaws.cycles.cycle import Cycle, Plan
+from optlaws.cycles.optimisation.objectives import SUMS, kind_of
+from optlaws.cycles.report import objective_unit
 from optlaws.errors import OptlawsError
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import MILLI, QUANTITIES
@@ -95,8 +98,23 @@ def known_values(*parts: Callable[[], Values]) -> Values:
     return values
 
 
-def cam_differences(name: str, usual: Values, chosen: Values) -> Differences:
-    """The values of a cam beside those of the same cam with the usual law of a name."""
+def cam_differences(name: str, usual: Values, chosen: Values, objective: str = "") -> Differences:
+    """The values of a cam beside those of the same cam with the usual law of a name; first what was minimised."""
     return Differences(
-        name, [Difference(what, unit, usual.get(what, (None, ""))[0], value) for what, (value, unit) in chosen.items()]
+        name,
+        [Difference(what, unit, usual.get(what, (None, ""))[0], value) for what, (value, unit) in chosen.items()],
+        objective,
     )
+
+
+def objective_name(plan: Plan) -> str:
+    """What the laws of a cam have the least of, as its values name it; empty where no law was optimised."""
+    name = plan.minimise
+    whole = kind_of(name)[1] or kind_of(name)[0] in SUMS
+    return "" if not plan.solutions else name if whole else f"peak {name}"
+
+
+def objective_value(motion: Cycle | Plan, name: str) -> Values:
+    """The value of what was minimised, of its laws or of others in the same cycle; nothing where nothing was."""
+    objective = name.removeprefix("peak ")
+    return {name: (motion.value(objective), objective_unit(motion.solve(), objective))} if name else {}

@@ -19,6 +19,8 @@ from optlaws.cams.cam_values import (
     force_values,
     known_values,
     motion_values,
+    objective_name,
+    objective_value,
 )
 from optlaws.cams.cam_values import Values as ValuesByName
 from optlaws.cams.curves.plane_curve import CurveByAngle
@@ -90,17 +92,19 @@ class CamReport:
     @kept_property
     def beside(self) -> Differences | None:
         """What the cam takes beside one with modified sine on the same prime circle; None where that has no sense."""
-        cam, usual = self.cam, _usual_motion(self.cam.motion)
-        if usual is None:
+        cam, both = self.cam, _usual_and_chosen(self.cam.motion)
+        if both is None:
             return None
+        (usual, chosen), least = both, objective_name(both[1])
         rate, driven = TURN / usual.duration, usual.drive is not None
 
-        def values(motion: Any) -> ValuesByName:
+        def values(motion: Cycle | Plan) -> ValuesByName:
             placed = replace(cam, motion=motion)
             parts: list[Callable[[], ValuesByName]] = [lambda: motion_values(placed, rate)]
+            parts.append(lambda: objective_value(motion, least))
             return known_values(*parts, *([lambda: force_values(CamForces(placed))] if driven else []))
 
-        return cam_differences(USUAL, values(usual), values(cam.motion))
+        return cam_differences(USUAL, values(usual), values(chosen), least)
 
     @property
     def beyond(self) -> list[Sentence]:
@@ -252,21 +256,25 @@ class CamReport:
         return Panel(name, unit, (Series(at, curve),), (), peaks, ends_of, across="cam, deg", per=DEGREES)
 
 
-def _usual_motion(motion: Any) -> Cycle | None:
-    """The cycle of a cam with modified sine in its moves; None where none of its laws was optimised."""
+def _usual_and_chosen(motion: Any) -> tuple[Cycle, Plan] | None:
+    """The cycle of a cam with modified sine in its moves, and with its laws; None where none of them was optimised."""
     if not isinstance(motion, Cycle | Plan) or not motion.solve().solutions:
         return None
     usual: Cycle | None = usual_cycle(motion.solve().specification)
-    return usual
+    return None if usual is None else (usual, motion.solve())
 
 
 def barrel_differences(cam: BarrelCam) -> Section:
     """The motion and the pressure angle of a barrel cam beside those with modified sine; empty where that is none."""
-    usual = _usual_motion(cam.motion)
-    if usual is None:
+    both = _usual_and_chosen(cam.motion)
+    if both is None:
         return Section()
-    both = (barrel_values(each, TURN / usual.duration) for each in (replace(cam, motion=usual), cam))
-    return cam_differences(USUAL, *both).section()
+    least = objective_name(both[1])
+    usual, chosen = (
+        barrel_values(replace(cam, motion=motion), TURN / motion.duration) | objective_value(motion, least)
+        for motion in both
+    )
+    return cam_differences(USUAL, usual, chosen, least).section()
 
 
 #: what is known of the cusps of a flank by the status of its undercut

@@ -62,7 +62,7 @@ class CycleReport:
     def facts(self) -> Summary:
         """The proof of the cycle, its peaks, its limits, its drive and its joints, with places as times in seconds."""
         parts: list[Any] = [proof_rows, peak_rows, jerk_rows, limit_rows, drive_rows, joint_rows]
-        return Summary([row for rows in parts for row in rows(self.plan)], at="s")
+        return Summary([*(row for rows in parts for row in rows(self.plan)), *self.worse], at="s")
 
     @kept_property
     def tables(self) -> tuple[ReportTable, ...]:
@@ -90,6 +90,11 @@ class CycleReport:
         cycle: Any = plan.specification
         usual = usual_cycle(cycle) if plan.solutions else None
         return None if usual is None else cycle_differences(USUAL, usual.unchecked(), plan)
+
+    @property
+    def worse(self) -> list[Row]:
+        """The remark that modified sine is better in the objective; nothing where it is not."""
+        return [] if self.beside is None or not self.beside.remark else [Row("remark", self.beside.remark)]
 
     def motion(self, count: int) -> ReportTable:
         """Angle, time, position, velocity, acceleration and jerk at equal steps over the cycle.
@@ -271,7 +276,7 @@ class FastestReport(CycleReport):
     def facts(self) -> Summary:
         """The speed with what is proven of it, the gain from a tenth more of each limit, and the motions' times."""
         fastest = self.fastest
-        rows = [Row("status", fastest.status.value), *fastest.proof_rows()]
+        rows = [Row("status", fastest.status.value), *fastest.proof_rows(), *self.worse]
         rows += [Row("would give", str(gain)) for gain in fastest.gains]
         return Summary([*rows, *(each.row for each in fastest.segments)])
 
@@ -289,7 +294,7 @@ class FastestReport(CycleReport):
             return None
         fastest, known = self.fastest, [("greatest speed", "rpm", "rpm"), ("least period", "s", "period")]
         times = [Difference(name, unit, getattr(slower, of), getattr(fastest, of)) for name, unit, of in known]
-        return Differences(USUAL, [*times, *taken.values])
+        return Differences(USUAL, [*times, *taken.values], "least period")
 
     @kept_property
     def data(self) -> dict[str, Any]:
@@ -320,20 +325,21 @@ def cycle_differences(name: str, usual: Solved, chosen: Solved) -> Differences:
     >>> from optlaws import Cycle, Return, Rise
     >>> best, sine = (Cycle([Rise("1 m", "1 s", law=law), Return(law=law)], period="2 s") for law in ("optimal", "MS"))
     >>> [(each.name, each.text) for each in cycle_differences("modified sine", sine.solve(), best.solve()).values]
-    [('velocity', '+4.7 %'), ('acceleration', '-21.5 %'), ('jerk', '+314.6 %'), ('rms acceleration', '-1.6 %')]
+    [('acceleration', '-21.5 %'), ('velocity', '+4.7 %'), ('jerk', '+314.6 %'), ('rms acceleration', '-1.6 %')]
     """
     cycle, force = chosen.specification, FORCES[chosen.axis]
-    names = ["velocity", "acceleration", "jerk", "rms acceleration"]
+    names = [chosen.minimise, "velocity", "acceleration", "jerk", "rms acceleration"]
     names += [] if cycle.drive is None else [force, f"rms {force}", "power", "energy"]
     if cycle.in_si.load is not None:
         names += [f"{LOAD}{output}" for output in chosen.load_motion.outputs]
     values = (
         [None if name == "jerk" and any(joint["acceleration"] for joint in motion.joints) else motion.value(name)
          for motion in (usual, chosen)]
-        for name in dict.fromkeys([*names, chosen.minimise])
+        for name in dict.fromkeys(names)
     )  # fmt: skip
-    known = zip(dict.fromkeys([*names, chosen.minimise]), values, strict=True)
-    return Differences(name, [Difference(each, objective_unit(chosen, each), *both) for each, both in known])
+    known = zip(dict.fromkeys(names), values, strict=True)
+    rows = [Difference(each, objective_unit(chosen, each), *both) for each, both in known]
+    return Differences(name, rows, chosen.minimise if chosen.solutions else "")
 
 
 def motion_table(

@@ -24,6 +24,8 @@ from optlaws.cams.cam_values import (
     force_values,
     known_values,
     motion_values,
+    objective_name,
+    objective_value,
     spring_values,
 )
 from optlaws.cams.conjugate import conjugate_cam
@@ -310,7 +312,13 @@ class CamResult:
         usual, chosen = self.usual, dict(self.values)
         if self.spec.radius is None and self.spec.best != "laws":
             chosen.pop("least prime circle", None)  # it is the prime circle
-        return Section() if usual is None else cam_differences(USUAL, usual.values, chosen).section()
+        if usual is None:
+            return Section()
+        if self.spec.best == "prime circle":
+            return cam_differences(USUAL, usual.values, chosen, "prime circle").section()
+        least = objective_name(self.plan)
+        both = usual.values | objective_value(usual.plan, least), chosen | objective_value(self.plan, least)
+        return cam_differences(USUAL, *both, least).section()
 
     @kept_property
     def laws(self) -> Section:

@@ -237,7 +237,7 @@ class FastestMove(LawExport, MovePlan, JsonText):  # type: ignore[misc] # its ex
         for first, second in zip(*(each.limits_taken for each in both), strict=True):
             if first.name not in (*DERIVATIVES, DECELERATION):
                 values.append(Difference(first.name, first.unit, first.value, second.value))
-        return Differences(USUAL, values)
+        return Differences(USUAL, values, "least time")
 
     def proof_rows(self) -> Summary:
         """The least time and the best possible time, with what is proven of them."""
@@ -375,7 +375,9 @@ class MoveReport:
     def facts(self) -> Summary:
         """The least time with its proof, and the use of each limit with the time that a higher one saves."""
         rows = (Row(each.name, each.value, each.unit, note=self._note(each)) for each in self.limits_taken)
-        return Summary([*self.move.proof_rows(), *rows])
+        beside = self.move.beside
+        worse = [Row("remark", beside.remark)] if beside is not None and beside.remark else []
+        return Summary([*self.move.proof_rows(), *rows, *worse])
 
     def _note(self, taken: LimitTaken) -> str:
         if taken.name not in self.move.binding:

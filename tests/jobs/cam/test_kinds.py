@@ -290,7 +290,7 @@ def test_page_and_explorer_show_the_facts_of_one_report(tmp_path: Path) -> None:
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in page.splitlines() if line.startswith("| ")]
     shown = [row for row in rows if row[0] != "what"]
     compared, (law, *extremes) = shown[:6], shown[6:]
-    peaks = ["peak velocity", "peak acceleration", "peak jerk"]
+    peaks = ["peak acceleration", "peak velocity", "peak jerk"]  # what is least stands first
     assert [row[0] for row in compared] == [*peaks, "greatest pressure angle", "prime circle", "least prime circle"]
     for (name, usual, chosen, change, unit), fact in zip(compared, sizes[:6], strict=True):
         assert fact == f"{name} {chosen} {unit}: {change}: modified sine has {usual} {unit}"
@@ -316,11 +316,11 @@ def test_displacements_of_a_table_are_in_the_units_of_pictures(tmp_path: Path, b
 @pytest.mark.long
 @pytest.mark.parametrize(
     ("mass", "better"),
-    [({}, "peak acceleration"), ({"mass": "3 kg"}, "peak torque at the shaft")],
+    [({}, ["peak acceleration"]), ({"mass": "3 kg"}, ["peak power", "peak torque at the shaft"])],
     ids=["light", "heavy"],
 )
 def test_the_cam_of_the_starter_is_nowhere_worse_than_the_one_with_the_usual_law(
-    tmp_path: Path, mass: dict[str, str], better: str
+    tmp_path: Path, mass: dict[str, str], better: list[str]
 ) -> None:
     numbers = {"stroke": "40mm", "rise": "110deg", "return": "110deg", "speed": "180rpm", **mass}
     text = STARTERS["cam"].text(numbers, tmp_path / "cam.toml").replace("animation = true", "")
@@ -329,6 +329,16 @@ def test_the_cam_of_the_starter_is_nowhere_worse_than_the_one_with_the_usual_law
     if mass:
         text = text.replace("\n[follower]", '\nforces = { width = "20 mm" }\n\n[follower]', 1)
     values = {each["name"]: each["change"] for each in told_of(tmp_path, text)["usual_law"]["values"]}
-    assert values[better] < -0.05
+    assert next(iter(values)) == better[0]
+    assert max(values[name] for name in better) < -0.05
     # the limits of the file are rounded up
     assert max(change for change in values.values() if change is not None) < 1e-4
+
+
+def test_a_page_says_that_modified_sine_is_better_in_the_objective(tmp_path: Path) -> None:
+    numbers = {"stroke": "40mm", "rise": "110deg", "return": "110deg", "speed": "180rpm", "mass": "3 kg"}
+    text = STARTERS["cam"].text(numbers, tmp_path / "cam.toml").replace("animation = true", "")
+    page, _, _ = done(tmp_path, text.replace("degree = 15", "degree = 9"))
+    (usual, chosen) = (float(cell) for cell in page.split("| peak power")[1].split("|")[1:3])
+    assert f"Modified sine has {100.0 * (1.0 - usual / chosen):.1f} % less peak power than these laws: " in page
+    assert chosen > usual
