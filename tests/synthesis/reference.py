@@ -153,13 +153,16 @@ class _Program:
         self.cost = self.sum(problem.objective.terms)
         self.epigraphs(problem.objective.terms)
         self.norms = [(one.norm(NORMS[name]), place) for name, place in self.places.items() if name in NORMS]
+        expected = as_range(problem.B)
+        placed = expected is not None and (problem.inflexion == 0.5 or (expected.fixed and expected.low > 1.0))
+        in_the_middle = problem.boundary is None and placed
         for name in self.places:
             if name in PEAKS:
-                self.hold(one.derivative(PEAKS[name]), SIGNS.get(name, (1.0, -1.0)), name)
-        expected = as_range(problem.B)
+                # where the peak is in the middle, the chords to it say more than b <= B
+                signs = (-1.0,) if name == "B" and in_the_middle else SIGNS.get(name, (1.0, -1.0))
+                self.hold(one.derivative(PEAKS[name]), signs, name)
         if expected is not None:
-            placed = problem.inflexion == 0.5 or (expected.fixed and expected.low > 1.0)
-            self.velocity(expected, in_the_middle=problem.boundary is None and placed)
+            self.velocity(expected, in_the_middle=in_the_middle)
         if problem.monotone:
             self.hold(one.ratio() if problem.boundary is None else one.derivative(1), (-1.0,))
         for name in ("C", "J"):

@@ -6,7 +6,8 @@ import pytest
 
 from optlaws import Certificate, Chebyshev, InfeasibleProblem, Problem, synthesize
 from tests.sampling import sampled
-from tests.synthesis.independent import check_solution, least_acceleration, polynomial, random_problems
+from tests.synthesis.independent import check_solution, polynomial, random_problems
+from tests.synthesis.reference import least
 
 PROBLEMS = random_problems(2, 200)
 SCARCE = [
@@ -62,7 +63,7 @@ def test_1500_random_problems_of_high_degree(seed: int) -> None:
 
 
 def agrees_with_highs(problem: Problem) -> bool:
-    independent = least_acceleration(problem)
+    independent = least(problem)
     try:
         solution = synthesize(problem)
     except InfeasibleProblem:
