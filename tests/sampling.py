@@ -28,8 +28,9 @@ def examples(count: int) -> settings:
 def leave_to_long_runs(items: Sequence[pytest.Item]) -> None:
     """Mark as long what `@pytest.mark.sample(each)` leaves out: all but every so many of a test's cases.
 
-    Of the others the first of each kind stays too: of each value of each parameter where parameters are crossed, or
-    of what `kind` tells of the value of the only one, its type unless given.
+    Of the others those stay that show a kind that no other one has: a value of a parameter where parameters are
+    crossed, or what `kind` tells of the value of the only one, its type unless given. The case of most new kinds
+    comes first, so that few cases show all.
     """
     marked = [item for item in items if isinstance(item, pytest.Function) and item.get_closest_marker("sample")]
     for _, cases in groupby(marked, lambda item: item.nodeid.partition("[")[0]):
@@ -50,11 +51,14 @@ def _leave_of_one_test(cases: list[pytest.Function]) -> None:
         else {(name, kind(value)) for name, value in case.callspec.params.items()}
         for case, places in zip(cases, zip(*counted, strict=True), strict=True)
     ]
-    seen = {one for own, is_taken in zip(kinds, taken, strict=True) if is_taken for one in own}
-    for case, own, is_taken in zip(cases, kinds, taken, strict=True):
-        if not is_taken and own <= seen:
+    unseen = set().union(*kinds).difference(*(own for own, is_taken in zip(kinds, taken, strict=True) if is_taken))
+    while unseen:
+        best = max(range(len(cases)), key=lambda i: len(kinds[i] & unseen))
+        taken[best] = True
+        unseen -= kinds[best]
+    for case, is_taken in zip(cases, taken, strict=True):
+        if not is_taken:
             case.add_marker(pytest.mark.long)
-        seen |= own
 
 
 def _together(case: pytest.Function) -> list[tuple[str, ...]]:

@@ -47,7 +47,7 @@ def test_every_so_many_stay_and_the_first_of_each_kind() -> None:
     assert alone(9, ["only"]) == ["only"]
 
 
-@pytest.mark.parametrize("each", [2, 3, 5])
+@pytest.mark.parametrize("each", [2, 3, 5, 24])
 def test_of_crossed_parameters_every_value_stays(each: int) -> None:
     mark = pytest.mark.sample(each).mark
     together = zip(A, B, strict=True)
