@@ -33,7 +33,7 @@ def refused(error: InfeasibleProblem, problem: Problem) -> str:
     assert error.problem == problem
     if error.proof is None:
         # a constant is asked to be below its closed form: the message says which
-        assert "its limit is" in str(error)
+        assert "of all laws the least is" in str(error)
         return "infeasible"
     assert isinstance(error.proof, Certificate)
     if error.proof.proves_infeasible:

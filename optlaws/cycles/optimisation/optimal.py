@@ -11,22 +11,40 @@ from dataclasses import replace
 from itertools import groupby, pairwise
 from math import ceil, inf, sqrt
 from operator import itemgetter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective
-from optlaws.cycles.optimisation.span_values import PEAKS, DrivenSpan, known_drive, limited_value, span_value
-from optlaws.cycles.specification.limits import LoadOutput, Side, Sides, along_motion, greatest, in_units, load_output
+from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective, torque_at_rest
+from optlaws.cycles.optimisation.span_values import (
+    PEAKS,
+    DrivenSpan,
+    has_torque_limit,
+    known_drive,
+    limited_value,
+    size_of,
+    span_value,
+    torque_limit,
+)
+from optlaws.cycles.specification.limits import (
+    FORCE_UNITS,
+    FORCES,
+    LoadOutput,
+    Side,
+    Sides,
+    along_motion,
+    greatest,
+    in_units,
+    load_output,
+)
 from optlaws.cycles.specification.programme import LawSpan, State, is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import Kind, in_small_units
 from optlaws.numbers import MOST_PIECES
-from optlaws.sentences import sentence
+from optlaws.sentences import Amount, sentence
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional, RootMeanSquare
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window, via
-from optlaws.synthesis.search import limit_beside
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.spaces.bases import Chebyshev, Pieces, PolynomialBasis
@@ -34,6 +52,9 @@ from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.periodic_pieces import PeriodicPieces
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import AGREEMENT
+
+if TYPE_CHECKING:
+    from optlaws.mechanisms.drives.drive_train import Drive
 
 _MOST, _LEAST = 600, 3  # pieces of a law, and of a motion even so: fewer may not bend as its ends require
 #: pieces of a stretch where what is minimised has its peaks inside of pieces: the velocity, what a load does, power
@@ -266,6 +287,53 @@ def unlimited(problem: Problem) -> Problem:
     return replace(problem, bounds={}, B=None, C=None, D=None, J=None)
 
 
+def refuse_too_weak(span: LawSpan, objective: CycleObjective) -> None:
+    """Refuse a span whose torque is limited to less than any law takes, before laws are looked for.
+
+    Raises
+    ------
+    InfeasibleProblem
+        If the limit of all laws is above that of the torque; the limit is its `proof`.
+    """
+    from optlaws.laws.catalogue.catalogue import USUAL, catalogue
+
+    drive = objective.drive
+    if drive is None or not has_torque_limit(span, drive):
+        return
+    sides = span.stretches[0].sides(objective.limits)
+    curve = torque_at_rest(drive) if Side(Kind.CURVE) in sides else inf
+    allowed = min(greatest(sides, Kind.FORCE), curve)
+    if allowed == inf or size_of(span.by(catalogue[USUAL].law), Kind.FORCE, drive) <= allowed:
+        return
+    least = torque_limit(span, objective, "peak torque")
+    if least is None or least.value <= allowed:
+        return
+    force, unit = FORCES[objective.axis], FORCE_UNITS[objective.axis]
+    at = f" with a ratio of {drive.ratio:g}" if drive.has_motor else ""
+    raise InfeasibleProblem(
+        sentence(
+            "{}: too little {}{}: no law, of whatever degree, that never turns back takes {} in {} with a peak below "
+            "{}, and {} are allowed: give it more time{} or a wider limit",
+            span.where, force, at, in_small_units(abs(span.stroke), objective.axis), Amount(span.duration, "s"),
+            Amount(least.value, unit), Amount(allowed, unit), _stronger(span, drive),
+        ),
+        proof=least,
+    )  # fmt: skip
+
+
+def _stronger(span: LawSpan, drive: Drive) -> str:
+    """Remedies by the drive: another ratio, where the motor can turn the usual law with it, or another motor."""
+    from optlaws.laws.catalogue.catalogue import USUAL
+
+    if not drive.has_motor:
+        return ""
+    try:
+        best = drive.best_ratio(USUAL, span.origin, span.stroke, span.duration).ratio
+    except InfeasibleProblem:
+        return ", a stronger motor"
+    return f", a ratio such as {best:.3g}, a stronger motor"
+
+
 def with_least_limit(error: InfeasibleProblem, span: LawSpan, objective: CycleObjective) -> InfeasibleProblem:
     """The error of a span without a law, saying in units of the machine what one limit would have to allow at least."""
     problem = span_problem(span, objective)
@@ -283,21 +351,11 @@ def with_least_limit(error: InfeasibleProblem, span: LawSpan, objective: CycleOb
         if limit is None or least <= limit.high:
             continue
         allowed, needed = (in_units(key, value, objective.axis) for value in (most, least / limit.high * most))
-        beyond = ""
-        if key.kind.is_driven:
-            # the infimum over all laws that never turn back
-            peaks: list[Any] = [*limited.beneath] or [limited.objective]
-            planes = (limit_beside(replace(minimised, minimise=each, symmetric=False, monotone=True)) for each in peaks)
-            proven = max((plane.value for plane in planes if plane is not None), default=0.0)
-            if proven > limit.high:
-                greater = in_units(key, proven / limit.high * most, objective.axis)
-                beyond = sentence("; no law that never turns back, of whatever degree, takes less than {}", greater)
         return InfeasibleProblem(
             sentence(
-                "{}: no law keeps its limits in {} s: among {} the least is {}, but its limit is {}{}: give it more "
+                "{}: no law keeps its limits in {} s: among {} the least is {}, but its limit is {}: give it more "
                 "time, a wider limit or a higher degree",
                 span.where, f"{span.duration:.9g}", search_space(problem, span, objective.order), needed, allowed,
-                beyond,
             ),
             problem=problem,
             tried=error.tried,

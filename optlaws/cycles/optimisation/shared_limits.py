@@ -16,7 +16,14 @@ from math import copysign, exp, inf, log, sqrt
 from operator import itemgetter
 
 from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective
-from optlaws.cycles.optimisation.optimal import solve, solved, span_problem, with_least_limit, with_share
+from optlaws.cycles.optimisation.optimal import (
+    refuse_too_weak,
+    solve,
+    solved,
+    span_problem,
+    with_least_limit,
+    with_share,
+)
 from optlaws.cycles.optimisation.span_values import (
     Laws,
     SpanValue,
@@ -175,6 +182,8 @@ def best_of(layout: Layout, objective: CycleObjective, period: float) -> Best:
     """The best laws of all spans; of none, without a bound of what is given."""
     if not layout.spans:
         return Best((), (), None)
+    for span in layout.spans:
+        refuse_too_weak(span, objective)
     if not objective.shares:
         laws = tuple(_solved(span, objective) for span in layout.spans)
         chosen, remarks = ties_broken(layout, objective, laws, period)

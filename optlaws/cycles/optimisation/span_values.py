@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from optlaws.mechanisms.drives.drive_train import Drive
     from optlaws.mechanisms.drives.effort import PieceEffort
     from optlaws.mechanisms.linkages.mechanism_formulas import LinearForce, StrokeTorque
+    from optlaws.mechanisms.linkages.move_limit import MoveLimit
     from optlaws.synthesis.limits.drive_limits import DriveObjective
 
 PEAKS = {Kind.VELOCITY: "B", Kind.ACCELERATION: "C", Kind.JERK: "J", Kind.SNAP: "snap"}
@@ -384,29 +385,36 @@ def _bound_of_drive(span: LawSpan, objective: CycleObjective) -> float:
     Of the motor no limit counts but those that the cycle keeps. Minus infinity where none is known: of a span that does
     not go from rest to rest, of a load over the time, and of other objectives, as an energy may be below 0.
     """
-    drive, kind = objective.drive, objective.kind
-    resting = span.first.velocity == 0.0 == span.last.velocity and not span.may_turn
-    if drive is None or kind not in {Kind.FORCE, Kind.HEAT} or not resting or drive.mechanism.varies:
+    kind, drive = objective.kind, objective.drive
+    if drive is None or kind not in {Kind.FORCE, Kind.HEAT} or not has_torque_limit(span, drive):
         return -inf
+    known = torque_limit(span, objective, "peak torque" if kind is Kind.FORCE and not objective.mean else "rms torque")
+    least = 0.0 if known is None else max(known.value, 0.0)
+    return least if kind is Kind.FORCE else drive.train.copper * span.duration * least**2
+
+
+def has_torque_limit(span: LawSpan, drive: Drive) -> bool:
+    """Whether the torque of a span has a limit for all laws: from rest to rest, with a load that no time changes."""
+    return span.first.velocity == 0.0 == span.last.velocity and not span.may_turn and not drive.mechanism.varies
+
+
+def torque_limit(span: LawSpan, objective: CycleObjective, minimised: DriveObjective) -> MoveLimit | None:
+    """The limit of a span's torque, of any law that never turns back, by a motor without limits of its own."""
     known = {Kind.VELOCITY: "velocity", Kind.ACCELERATION: "acceleration"}
     sides = span.stretches[0].sides(objective.limits)
     limits = tuple((known[key.kind], most) for key, most in sides.items() if key.kind in known and not key.sign)
-    move = (span.origin, span.stroke, span.duration)
-    if kind is Kind.HEAT:
-        return drive.train.copper * span.duration * _least_torque(drive, "rms torque", move, limits) ** 2
-    return _least_torque(drive, "rms torque" if objective.mean else "peak torque", move, limits)
+    return _torque_limit(known_drive(objective.drive), minimised, (span.origin, span.stroke, span.duration), limits)
 
 
 @lru_cache(maxsize=64)
-def _least_torque(
-    drive: Drive, name: DriveObjective, move: tuple[float, float, float], limits: tuple[tuple[str, float], ...]
-) -> float:
-    """The limit of the torque of a move, by a motor without limits; 0 where none is proven."""
+def _torque_limit(
+    drive: Drive, minimised: DriveObjective, move: tuple[float, float, float], limits: tuple[tuple[str, float], ...]
+) -> MoveLimit | None:
     free = replace(drive.motor, rated_torque=None, peak_torque=None, greatest_speed=None, curve=(), continuous=())
     try:
-        return max(replace(drive, motor=free).limit(name, *move, limits=dict(limits)).value, 0.0)
+        return replace(drive, motor=free).limit(minimised, *move, limits=dict(limits))
     except (InfeasibleProblem, InputError, SolverFailure):
-        return 0.0
+        return None
 
 
 def _relaxed(

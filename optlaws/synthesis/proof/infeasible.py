@@ -65,17 +65,17 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
             proof=disagreement,
             tried="the equations contradict each other by linear algebra alone (error.proof has their multipliers)",
         )
+    beyond = beyond_limit(problem)
     trial = solve(elastic.program)
     proof = None if trial.optimum is None else violation_certificate(elastic, trial.optimum)
     if proof is None or not proof.proves_infeasible:
         proof = _at_vertices(elastic) or proof
     if proof is not None and proof.proves_infeasible:
         return InfeasibleProblem(
-            _why(problem, proof, elastic), problem=problem, proof=proof, tried=_contradiction(proof)
+            beyond or _why(problem, proof, elastic), problem=problem, proof=proof, tried=_contradiction(proof)
         )
     if trial.optimum is not None:
         tried += f"; the constraints leave {-trial.optimum.x[-1]:.3e} to spare"
-    beyond = beyond_limit(problem)
     if beyond:
         return InfeasibleProblem(beyond, problem=problem, tried=tried)
     least = _out_of_reach(problem, elastic)

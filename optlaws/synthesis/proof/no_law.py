@@ -97,13 +97,14 @@ def beyond_limit(problem: Problem) -> str:
     """The constant whose bound is below the limit of all laws; empty without one.
 
     >>> beyond_limit(Problem(B=1.7, order=4, C=(0.0, 3.0)))
-    'no law of any degree has C <= 3 with the other constraints: its limit is 4.128571 (optlaws.limit). ...'
+    'no law of any degree has C <= 3 with the other constraints: of all laws the least is 4.128571 (optlaws.limit). ...'
     """
+    another = "" if problem.range("B") is None else ", or another B"
     for constant, limits in problem.bounded:
         least = known_limit(replace(problem, minimise=constant.expression()))
         if least is not None and limits.high < least * (1.0 - VALUE_ROUNDING):
             return (
                 f"no law of any degree has {constant!r} <= {limits.high:g} with the other constraints: "
-                f"its limit is {least:.7g} (optlaws.limit). A higher bound of {constant!r} helps, or another B"
+                f"of all laws the least is {least:.7g} (optlaws.limit). A higher bound of {constant!r} helps{another}"
             )
     return ""
