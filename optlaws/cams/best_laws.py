@@ -26,6 +26,7 @@ from optlaws.cams.followers.follower import CamFollower, Place, shown
 from optlaws.cams.least_sizes import CamLimits, LeastPrimeCircle, least_prime_circle
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
+from optlaws.cycles.optimisation.optimal import span_problem
 from optlaws.entries.declared import documented_by
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.formulas.arithmetic import NUMPY, evaluate
@@ -178,6 +179,24 @@ def cam_of_laws(plan: Plan, cam: DiscCam, lower_bound: float | None = None) -> B
     bound = _total(plan, _with_solutions(plan)) if lower_bound is None else lower_bound
     proven = plan.objective - bound <= 1e-6 * plan.objective
     return BestCam(cam, plan.objective, bound, Status.OPTIMAL if proven else Status.LOCAL, tuple(plan.solutions))
+
+
+def bounds_hold(plan: Plan, cam: DiscCam, limits: CamLimits) -> bool:
+    """Whether the bounds of a plan's solutions are those of all its laws that keep the limits of its cam.
+
+    They are where each solution is of the problem of its motion, or of this problem with limits of the cam.
+    """
+    objective, contact = plan.specification.in_si, cam.contact
+    for span, piece, solution in plan.laws:
+        known = [span_problem(span, objective)]
+        if contact.linear:
+            each = linear_limits(piece, contact, limits.in_si, plan.duration, below=True)
+            known.append(_problem(known[0], [limit.window() for limit in each], ()))
+            bend = None if limits.radius is None else curvature_of(piece, contact, limits.radius, plan.duration)
+            known += [] if bend is None else [replace(known[1], windows=(*known[1].windows, bend.window()))]
+        if solution.problem not in known:
+            return False
+    return True
 
 
 @documented_by(CamLimits)

@@ -15,6 +15,7 @@ from optlaws.cams.best_laws import (
     BestPrimeCircle,
     best_cam,
     best_prime_circle,
+    bounds_hold,
     cam_of_laws,
     prime_circle_of_laws,
 )
@@ -222,9 +223,16 @@ class CamResult:
         return bool(cam.contact.linear) and not (cam.contact.roller and self.spec.limits.radius is not None)
 
     @property
-    def takes_its_bound(self) -> bool:
-        """Whether the lower bound is the stated one, as that of laws whose limits are not linear in them."""
-        return self.bound is not None and self.spec.best == "laws" and not self._has_linear_limits(self.cam)
+    def minimises_over_cycle(self) -> bool:
+        """Whether the laws that are best for the cam have the least of what the cycle minimises."""
+        return isinstance(self.sought, BestCam)
+
+    @property
+    def bounds_hold(self) -> bool:
+        """Whether the bounds of the laws are those of all laws of the cycle, where limits of the cam keep them."""
+        if self.minimises_over_cycle:
+            return bounds_hold(self.plan, self.cam, self.spec.limits)
+        return self.plan.of_its_problems()
 
     @property
     def _usual_radius(self) -> Any:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from math import inf, nextafter, sqrt
-from typing import Any
+from typing import Any, NamedTuple
 
 from optlaws.errors import InputError, OptlawsError
 from optlaws.files.reading import entries_of
@@ -50,13 +51,11 @@ def cam(data: Data) -> Verification:
         wrong = result.plan.contradiction()
         detail = wrong or f"they meet its joints and keep its limits, in doubles; status {result.plan.status.value}"
         claims = [Claim("the laws of the motion", proven=False, detail=detail, checked=bool(wrong))]
-        of_laws = stated.get("laws") or {}
-        proven = list(_objective_of_cycle(result.plan, [each.bound for each in known.values()], of_laws))
-        claims += [replace(claim, name=f"laws.{claim.name}") for claim in proven]
-        if getattr(result, "takes_its_bound", False):
-            above = result.bound > result.plan.objective * (1.0 + STORED_VALUE)
-            detail = f"{result.bound!r} stated, of laws under limits of the cam that are not linear in them"
-            claims.append(Claim("best.lower_bound", proven=False, detail=detail, checked=above))
+        for name in getattr(result, "of_laws", ()):  # a barrel states none
+            if name == "laws" or result.minimises_over_cycle:
+                weaker = "" if result.bounds_hold else _CURVED if result.minimises_over_cycle else _FURTHER
+                proven = _objective_of_laws(result.plan, list(known.values()), stated.get(name) or {}, weaker)
+                claims += [replace(claim, name=f"{name}.{claim.name}") for claim in proven]
         claims += _numbers(stated, result.data)
     except OptlawsError as error:
         claims.append(Claim("the cam", proven=False, detail=str(error)))
@@ -91,49 +90,133 @@ def of_cycle(
         wrong = detail = str(error)
     known = parts(solved)
     if stated and solved is not None:
-        proven = list(_objective_of_cycle(solved, [each.bound for each in known.values()], stated))
+        weaker = "" if solved.of_its_problems() else _FURTHER
+        proven = list(_objective_of_laws(solved, list(known.values()), stated, weaker))
         numbers = [*proven, *_numbers(stated, solved.report().stored, {claim.name for claim in proven})]
     every = [claim for place, each in known.items() for claim in every_claim(each, f"{place}: ")]
     claim = Claim("the laws of the cycle", proven=False, detail=detail, checked=bool(wrong))
     return with_claims(Verification(), [*every, claim, *numbers])
 
 
+_SHARED = "which laws that share a limit or were selected among equals do not prove alone"
+_OTHERWISE = "which is computed again in doubles, from more than the certificates of its laws"
+#: why bounds of laws are none of the cycle's
+_CURVED = "of laws under limits of the cam that are not linear in them"
+_FURTHER = "of laws with further constraints than the cycle's, such as a part of a limit that they share"
+
 #: the constant of a law by the order of its derivative, as a peak and as a root mean square
 _CONSTANTS = {1: ("B", ""), 2: ("C", "rms_c"), 3: ("J", "rms_j"), 4: ("snap", "rms_snap")}
 
 
-def _objective_of_cycle(plan: Any, bounds: list[float | None], stated: Data) -> Iterator[Claim]:
-    """The claims of the objective and the lower bound of a cycle, in SI units, where it is of a derivative."""
+class _Share(NamedTuple):
+    """What a law of a cycle has of its objective: below, above, and what no law of its problem is below; SI units."""
+
+    duration: float
+    ends: tuple[Fraction, ...]
+    least: Fraction | None
+
+
+def _objective_of_laws(plan: Any, known: Sequence[Verification], stated: Data, weaker: str = "") -> Iterator[Claim]:
+    """The claims of the objective and the lower bound of a cycle in SI units, by the enclosed constants of its laws.
+
+    Bounds are those of the solutions, unless these are of problems with further constraints: `weaker` says so.
+    """
     objective = plan.specification.in_si
-    nu, mean = objective.kind.order, objective.mean
-    name = _CONSTANTS.get(nu, ("", ""))[mean]
-    if plan.bound is not None:
-        detail = (
-            f"{plan.bound!r} stated, which laws that share a limit or were selected among equals do not prove alone"
-        )
-        yield Claim("lower_bound", proven=False, detail=detail, checked=False)
-    if not name or not bounds or stated.get("objective") is None:
+    bounds = [None if weaker or plan.bound is not None else each.bound for each in known]
+    shares = None if stated.get("objective") is None else _shares(plan, known, bounds)
+    proven = None
+    if shares is not None:
+        total = partial(_total, shares, plan.duration, objective)
+        claim = near("objective", number(stated, "objective"), (total(0, -inf), total(1, inf)), 0.0)
+        # what is of a drive is computed again in doubles where no law determines it alone
+        yield from [claim] if claim.proven or objective.kind.order else []
+        known_of_all = all(share.least is not None for share in shares)
+        proven = Fraction(total(None, -inf)) if known_of_all else None
+    if stated.get("lower_bound") is None:
         return
-    proven = {id(piece): bound for (_, piece, _), bound in zip(plan.laws, bounds, strict=True)}
-    rows = list[tuple[Fraction, list[float | None]]]()
-    for piece in plan.pieces:
-        unit = abs(Fraction(piece.stroke)) / Fraction(piece.duration) ** nu
-        low, high = enclosed(ExactLaw(piece.law).term(FUNCTIONALS[name])) if unit else (0.0, 0.0)
-        if high == inf:
-            return
-        share = Fraction(piece.duration) / Fraction(plan.duration)
-        rows.append((share * unit**2 if mean else unit, [low, high, proven.get(id(piece), low)]))
+    bound = number(stated, "lower_bound")
+    claim = at_most("lower_bound", bound, proven, 0.0)
+    why = weaker or ("" if plan.bound is None else _SHARED) or ("" if proven and objective.kind.order else _OTHERWISE)
+    if why and not claim.proven:
+        above = plan.objective * (1.0 + STORED_VALUE) < bound
+        claim = Claim("lower_bound", proven=False, detail=f"{bound!r} stated, {why}", checked=above)
+    yield claim
 
-    def total(i: int) -> Fraction:
-        sizes = [weight * Fraction(values[i] or 0.0) ** (2 if mean else 1) for weight, values in rows]
-        return sum(sizes, Fraction(0)) if mean else max(sizes)
 
-    low, high = rounded_down(total(0)), rounded_up(total(1))
-    ends = (nextafter(sqrt(low), -inf), nextafter(sqrt(high), inf)) if mean else (low, high)
-    yield near("objective", number(stated, "objective"), ends, 0.0)
-    if stated.get("lower_bound") is not None and plan.bound is None and plan.of_its_problems():
-        least = Fraction(nextafter(sqrt(rounded_down(total(2))), -inf)) if mean else total(2)
-        yield at_most("lower_bound", number(stated, "lower_bound"), least, 0.0)
+def _total(shares: Sequence[_Share], period: float, objective: Any, end: int | None, side: float) -> float:
+    """An objective of an end of all shares, or of what no law is below, rounded to a side."""
+    sizes = [
+        (Fraction(share.duration), (share.least or Fraction(0)) if end is None else share.ends[end]) for share in shares
+    ]
+    if objective.mean:
+        square = sum((time * size**2 for time, size in sizes), Fraction(0)) / Fraction(period)
+        return nextafter(sqrt(rounded_up(square) if side > 0.0 else rounded_down(square)), side)
+    total = sum((size for _, size in sizes), Fraction(0)) if _is_sum(objective) else max(size for _, size in sizes)
+    return rounded_up(total) if side > 0.0 else rounded_down(total)
+
+
+def _shares(plan: Any, known: Sequence[Verification], bounds: Sequence[float | None]) -> list[_Share] | None:
+    """What each law of a cycle has of its objective; None where that is not known of one of them."""
+    objective = plan.specification.in_si
+    if objective.of_load:
+        return None
+    values = imported("optlaws.cycles.optimisation.span_values")
+    shares = list[_Share]()
+    for (span, piece, solved), each, bound in zip(plan.laws, known, bounds, strict=True):
+        value = values.span_value(span, objective.drive, objective.kind, mean=objective.mean)
+        minimised = solved.problem.minimise == replace(solved.problem, minimise=value.objective).minimise
+        if objective.kind.order:
+            ends = _of_derivative(piece, objective)
+        elif not values.is_exact(span, objective) or len(value.constants) > 1:
+            ends = None
+        elif minimised:
+            ends = None if each.objective is None else _quantity(value, each.objective)
+        else:
+            ends = _quantity(value, enclosed(ExactLaw(solved.law).term(value.constants[0])))
+        if ends is None:
+            return None
+        least = None if bound is None or not minimised else _quantity(value, (bound,))
+        # a peak or a mean is no less than 0, whatever the law
+        shares.append(_Share(piece.duration, ends, least[0] if least else None if value.summed else Fraction(0)))
+    for piece in plan.specification.layout.pieces:
+        ends = (_of_derivative if objective.kind.order else _at_rest)(piece, objective)
+        if ends is None:
+            return None
+        shares.append(_Share(piece.duration, ends, ends[0]))
+    return shares
+
+
+def _is_sum(objective: Any) -> bool:
+    return objective.kind.name in {"ENERGY", "HEAT"}
+
+
+def _quantity(value: Any, ends: Sequence[float]) -> tuple[Fraction, ...] | None:
+    """Dimensionless numbers in SI units; None where friction adds to a mean what depends on the way, or one is inf."""
+    if inf in ends or (value.constant and not value.summed):
+        return None
+    return tuple(Fraction(value.unit) * Fraction(end) + Fraction(value.constant) for end in ends)
+
+
+def _of_derivative(piece: Any, objective: Any) -> tuple[Fraction, ...] | None:
+    """Below and above a derivative of a law; None where it jumps."""
+    nu = objective.kind.order
+    unit = abs(Fraction(piece.stroke)) / Fraction(piece.duration) ** nu
+    constant = FUNCTIONALS[_CONSTANTS[nu][objective.mean]]
+    low, high = enclosed(ExactLaw(piece.law).term(constant)) if unit else (0.0, 0.0)
+    return None if high == inf else (unit * Fraction(low), unit * Fraction(high))
+
+
+def _at_rest(piece: Any, objective: Any) -> tuple[Fraction, ...] | None:
+    """Below and above what a dwell has of an objective of the drive; None where its force is no line, or in motion."""
+    if piece.stroke:
+        return None
+    if objective.kind.name in {"POWER", "ENERGY"}:
+        return Fraction(0), Fraction(0)
+    linear = objective.drive.linear
+    if objective.kind.name != "FORCE" or linear is None:
+        return None
+    resting = abs(Fraction(linear.constant) + Fraction(linear.stiffness) * Fraction(piece.offset))
+    return resting, resting
 
 
 def _numbers(stated: Data, known: Data, apart: Container[str] = ()) -> Iterator[Claim]:
@@ -141,13 +224,31 @@ def _numbers(stated: Data, known: Data, apart: Container[str] = ()) -> Iterator[
 
     What has a claim of its own stands `apart`.
     """
-    wrong = list(differences(stated, known, ""))
+    wrong = list(differences(*_by_name(stated, known), ""))
     yield from wrong
     names = ", ".join(name for name, value in stated.items() if value is not None and name not in apart)
     if names and not wrong:
         yield Claim(
             "the numbers", proven=False, detail=f"computed again in doubles, they agree: {names}", checked=False
         )
+
+
+def _by_name(stated: Data, known: Data) -> tuple[Data, Data]:
+    """Both with the values beside the usual law by their names, of which earlier files have fewer."""
+    rows = []
+    for data in (stated, known):
+        beside = data.get("usual_law")
+        given = beside.get("values") if isinstance(beside, Mapping) else None
+        rows.append({str(row.get("name")): row for row in listed(given or [], "usual_law.values", _MOST)})
+        if len(rows[-1]) != len(given or []):
+            return stated, known
+    if not rows[0] or not rows[0].keys() <= rows[1].keys():
+        return stated, known
+    first, second = (
+        {**data, "usual_law": {**data["usual_law"], "values": values}}
+        for data, values in zip((stated, known), rows, strict=True)
+    )
+    return first, second
 
 
 def axes(data: Data) -> Verification:
