@@ -503,6 +503,9 @@ def test_our_own_results_are_proven_or_said_not_to_be_checked(file: Path, capsys
     out, err = capsys.readouterr()
     assert "not proven" not in out
     assert (err == "") or "not checked" in err
+    assert not [line for line in out.splitlines() if line and line in err]
+    heads = [line for line in out.splitlines() if line.startswith(str(file))]
+    assert any("not checked" in head for head in heads) == bool(err)
 
 
 def test_what_nobody_wrote_and_what_lost_its_proof_is_refused(tmp_path: Path, capsys: Capture) -> None:
@@ -542,7 +545,7 @@ def test_false_constants_inside_results_without_proofs_are_found(tmp_path: Path,
     changed = tmp_path / "changed.json"
     changed.write_text(json.dumps(data), "utf-8")
     assert exit_code(["verify", str(changed)]) == 1
-    assert "deep[0]" in capsys.readouterr().err
+    assert "deep[0]" in capsys.readouterr().out
 
 
 def test_results_without_proofs_name_what_is_not_checked_and_what_contradicts_itself(
@@ -552,7 +555,7 @@ def test_results_without_proofs_name_what_is_not_checked_and_what_contradicts_it
     del data["cam"], data["solutions"]  # as earlier versions wrote it
     (tmp_path / "cam.json").write_text(json.dumps(data), "utf-8")
     assert exit_code(["verify", str(tmp_path / "cam.json")]) == 3
-    text = capsys.readouterr().err
+    text = capsys.readouterr().out
     assert all(name in text for name, value in data.items() if name not in {"about", "unit"} and value is not None)
     changed = tmp_path / "changed.json"
     pairs = {"low": "high", "lower_bound": "objective", "too_small": "radius", "radius": "too_large"}

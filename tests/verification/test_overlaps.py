@@ -29,7 +29,7 @@ def test_an_overlap_is_read_again_and_partly_checked(goal: str, tmp_path: Path) 
     ]
     file = tmp_path / "overlap.json"
     file.write_text(best.to_json(), "utf-8")
-    with pytest.raises(PartlyChecked, match="no other instants"):
+    with pytest.raises(PartlyChecked, match="3 claims are not checked"):
         command(file)
 
 

@@ -46,13 +46,17 @@ def verify(*files: Path) -> Answer:
 
 
 def _failure(verifications: Mapping[str, Verification]) -> NotProven | None:
-    """What is not proven or, if nothing is false, what was only computed again."""
-    every = verifications.items()
-    failed = [f"{name}: {claim}" for name, each in every for claim in each.claims if not claim.proven]
+    """How much is not proven or, if nothing is false, was only computed again; the answer says what."""
+    every = verifications.values()
+    failed = sum(not claim.proven for each in every for claim in each.claims)
     if failed:
-        return NotProven("\n".join(failed))
-    partly = [f"{name}: {claim}" for name, each in every for claim in each.unchecked]
-    return PartlyChecked("\n".join(partly)) if partly else None
+        return NotProven(f"{_claims(failed)} not proven")
+    partly = sum(len(each.unchecked) for each in every)
+    return PartlyChecked(f"{_claims(partly)} not checked: computed again in doubles") if partly else None
+
+
+def _claims(count: int) -> str:
+    return "1 claim is" if count == 1 else f"{count} claims are"
 
 
 def _verified(file: Path) -> dict[str, Verification]:
@@ -100,8 +104,11 @@ def _unchecked(name: str, why: str, claims: Sequence[Claim] = ()) -> Verificatio
 
 def _in_words(name: str, verification: Verification, *, whole: bool) -> str:
     word = "not proven" if not verification.proven else "proven" if verification.claims else "not checked"
+    if word == "proven" and verification.unchecked:
+        word = f"proven, but {_claims(len(verification.unchecked))} not checked"
     if whole:
         return f"{name}: {word}\n{verification}\n"
     bound = "" if verification.bound is None else f", lower bound {verification.bound!r}"
     gap = "" if verification.gap is None else f", gap at most {verification.gap:.1e}"
-    return f"{name}: {word}, {len(verification.claims)} claims{bound}{gap}"
+    doubtful = [claim for claim in (*verification.claims, *verification.unchecked) if not claim.proven]
+    return "\n".join([f"{name}: {word}, {len(verification.claims)} claims{bound}{gap}", *map(str, doubtful)])
