@@ -1,7 +1,8 @@
 """Processes that answer the page's questions: a question that is dropped or takes too long ends with its process.
 
-A question begins at once in a process for new ones, the newest question first. Where it takes longer than a slice of
-time it goes on among the long ones: however many heavy questions wait, a light one is answered soon.
+A question begins at once in a process for new ones, the newest question first. Where it takes more than a slice of the
+processor's time it goes on among the long ones, which give way: however many heavy questions wait, a light one is
+answered soon.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ import asyncio
 import multiprocessing
 import os
 import signal
+import time
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from typing import Any
@@ -18,11 +20,12 @@ import msgspec
 
 from optlaws.explorer.answering import FAULT, OK, answer_from, message
 
-#: seconds after which a question is a long one; seconds of the processor that it has, and that it can be given
-SLICE, USUAL, MOST = 0.5, 4.0, 300.0
+#: seconds of the processor after which a question is a long one, that it has, and that it can be given
+SLICE, USUAL, MOST = 0.25, 4.0, 300.0
+_SOON = 0.02  # between two looks at what a question has had
 _WAITED = 4.0  # a busy machine may take so many times as long in all
 _LONG = max(1, min(3, (os.cpu_count() or 2) - 1))
-_IDLE = 2
+_IDLE, _YIELDING = 2, 19  # processes that wait for a question; how far a long one gives way to others
 _METHODS = multiprocessing.get_all_start_methods()
 #: where it can, a process is a copy of one that has loaded everything already
 _KIND = "forkserver" if "forkserver" in _METHODS else "spawn"
@@ -48,6 +51,19 @@ class Worker:
     def alive(self) -> bool:
         """Whether the process can be given a question."""
         return not self._ended and self._process.is_alive()
+
+    @property
+    def spent(self) -> float:
+        """Seconds of the processor that the process has had; of the clock where the system does not count them."""
+        try:
+            return time.clock_gettime(~(self._process.pid or 0) << 3 | 2)  # the clock of a process, as POSIX numbers it
+        except (AttributeError, OSError):
+            return time.monotonic()
+
+    def give_way(self) -> None:
+        """Let all other processes go before this one, which is used up by its question."""
+        if hasattr(os, "setpriority") and self.alive:
+            os.setpriority(os.PRIO_PROCESS, self._process.pid or 0, _YIELDING)
 
     def answer(self, name: str, body: bytes, patience: float) -> Reply:
         """Wait for the answer to a question; if the process ends first, it is a sentence that reports it."""
@@ -77,13 +93,17 @@ class Workers:
         self._newcomers: list[asyncio.Future[None]] = []
         self._long = asyncio.Semaphore(_LONG)
         self._closed = asyncio.Event()
+        self._beginning = asyncio.Lock()
 
-    async def prepare(self) -> None:
-        """Begin processes before the first question."""
-        while len(self._idle) < _IDLE and not self._closed.is_set():
-            worker = await asyncio.to_thread(Worker)
-            self._all.add(worker)
-            self._idle.append(worker)
+    async def prepare(self, count: int = _IDLE) -> None:
+        """Begin so many processes before there is a question for them."""
+        async with self._beginning:
+            while len(self._idle) < count:
+                worker = await asyncio.to_thread(Worker)
+                self._all.add(worker)
+                self._idle.append(worker)
+                if self._closed.is_set():
+                    break
         if self._closed.is_set():  # meanwhile
             self.close()
 
@@ -99,15 +119,22 @@ class Workers:
             if self._closed.is_set():
                 return _ENDED
             worker, reply = await self._begun(name, body, patience)
-            await self._wait(worker, reply, SLICE, end=self._long.locked())
-        if not reply.done():
+            begun = worker.spent
+            while not reply.done() and worker.spent - begun < SLICE:
+                await self._wait(worker, reply, _SOON, end=False)
+            if self._long.locked() and not reply.done():
+                worker.end()
+        light = reply.done()
+        if not light:
+            await self.prepare()
             async with self._long:
                 if self._closed.is_set():
                     return _ENDED
                 if not worker.alive:
                     worker, reply = await self._begun(name, body, patience)
-                await self._wait(worker, reply, _WAITED * patience - SLICE, end=True)
-        if worker.alive and reply.done() and len(self._idle) < _IDLE:
+                worker.give_way()
+                await self._wait(worker, reply, _WAITED * patience, end=True)
+        if worker.alive and light and len(self._idle) < _IDLE:
             self._idle.append(worker)
         else:
             worker.end()
@@ -116,7 +143,8 @@ class Workers:
     async def _begun(self, name: str, body: bytes, patience: float) -> tuple[Worker, asyncio.Task[Reply]]:
         self._all = {worker for worker in self._all if worker.alive}
         self._idle = [worker for worker in self._idle if worker.alive]
-        await self.prepare()
+        while not self._idle:
+            await self.prepare(1)
         worker = self._idle.pop()
         return worker, asyncio.create_task(asyncio.to_thread(worker.answer, name, body, patience))
 

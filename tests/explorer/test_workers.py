@@ -8,6 +8,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from http.client import HTTPConnection
 from pathlib import Path
+from statistics import median
 
 import pytest
 
@@ -34,21 +35,22 @@ def test_a_question_that_takes_long_ends_with_a_sentence(served: Server) -> None
     assert served.ask("laws?patience=0.5", HEAVY) == {"error": "this takes more than 0.5 s", "late": 0.5}
 
 
-def test_a_light_question_does_not_wait_for_heavy_ones(served: Server) -> None:
-    heavy = [json.loads(json.dumps(HEAVY)) for _ in range(12)]
-    for number, question in enumerate(heavy):
+def test_light_questions_do_not_wait_for_heavy_ones(served: Server) -> None:
+    connections = [HTTPConnection(served.name, served.port, timeout=60) for _ in range(100)]
+    for number, connection in enumerate(connections):
+        question = json.loads(json.dumps(HEAVY))
         question["laws"][0]["problem"]["minimise"] = f"peak(cos({number + 7}*c)*sin(3*b))"
-    connections = [HTTPConnection(served.name, served.port, timeout=60) for _ in heavy]
-    for connection, question in zip(connections, heavy, strict=True):
-        connection.request("POST", "/api/laws", json.dumps(question), {"Content-Type": "application/json"})
+        connection.request("POST", "/api/laws?patience=100", json.dumps(question), {"Content-Type": "application/json"})
     time.sleep(0.3)
-    begin = time.monotonic()
-    assert "panels" in served.ask("laws", {"laws": [OPTIMAL | {"title": "light"}]})["laws"][0]
+    passed = []
+    for number in range(5):
+        begin = time.monotonic()
+        assert "panels" in served.ask("laws", {"laws": [OPTIMAL | {"title": f"light {number}"}]})["laws"][0]
+        passed.append(time.monotonic() - begin)
     assert served.send("GET", "/main.js")[0].status == 200
-    passed = time.monotonic() - begin
     for connection in connections:
         connection.close()  # nobody waits for them any more
-    assert passed < 20.0  # the slice of the one before it, on a machine that may be busy; all of them take 48 s
+    assert median(passed) < 5.0  # a slice of the one before it, on a machine that may be busy; all of them take hours
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="reads the processor time of processes from /proc")
