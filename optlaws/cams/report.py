@@ -33,7 +33,7 @@ from optlaws.kept import kept_property
 from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.motion.quantities import DEGREES, MILLI, TURN, TURN_DEG, UNITS
 from optlaws.numbers import Array, NumberOrQuantity, bounded, chop
-from optlaws.sentences import Sentence, joined, sentence
+from optlaws.sentences import Sentence, capital, joined, sentence
 from optlaws.shown.curve_points import refined
 from optlaws.shown.difference import Differences
 from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Section, Series
@@ -346,8 +346,9 @@ def forces_section(forces: CamForces, pressed: str = "") -> Section:
         table.append([name, least, first, most, last, unit])
         facts.append(Row(name, (least, most), unit))
     facts.append(Row("root mean square of the torque", forces.rms_torque[1], "N m"))
-    if forces.lifts_off:
-        facts.insert(0, Row("the follower lifts off", place=degrees(forces.contact.least_at)))
+    left = leaves(forces)
+    if left:
+        facts.insert(0, Row(left, place=degrees(forces.contact.least_at)))
     return Section(
         "Forces",
         facts=facts,
@@ -358,13 +359,21 @@ def forces_section(forces: CamForces, pressed: str = "") -> Section:
             " ",
             [
                 f"Torque at the shaft: root mean square {forces.rms_torque[1]:.6g} N m, mean {mean:.6g} N m.",
-                "The follower lifts off." if forces.lifts_off else "The follower stays on the cam.",
+                f"{capital(left)}." if left else "The follower stays on the cam.",
                 *([pressed] if pressed else []),
                 *([] if forces.width is None else [Surfaces(materials=forces.materials).assumed]),
             ],
         ),
         digits=6,
     )
+
+
+def leaves(forces: CamForces) -> str:
+    """That the follower lifts off, or that nothing presses it somewhere; blank where it is pressed all over."""
+    if forces.lifts_off:
+        return "the follower lifts off"
+    pressed = chop(forces.contact.least, forces.contact.peak, FORCE_ROUNDING) > 0.0
+    return "" if pressed else "the follower touches without force"
 
 
 def _limit(size: Any) -> dict[str, Any]:

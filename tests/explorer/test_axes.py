@@ -158,19 +158,19 @@ def test_bars_are_dragged_until_an_interlock_breaks(page: Page, served: Server) 
     page.get_by_role("tab", name="Axes").click()
     settle(page)
     bar = page.locator('[data-key="bar 1 0"]')
-    assert bar.get_attribute("aria-valuetext") == "from 50° to 105°"
+    assert bar.get_attribute("aria-valuetext") == "from 50 deg to 105 deg"
     drag(page, "bar 1 0", 45.0)
-    assert bar.get_attribute("aria-valuetext") == "from 95° to 150°"
+    assert bar.get_attribute("aria-valuetext") == "from 95 deg to 150 deg"
     assert "interlock broken" in page.locator("#axes-trust").inner_text()
     assert page.locator("#axes-timing .interlock.broken").count() > 0
     page.get_by_role("button", name="Undo").click()
     settle(page)
-    assert bar.get_attribute("aria-valuetext") == "from 50° to 105°"
+    assert bar.get_attribute("aria-valuetext") == "from 50 deg to 105 deg"
     bar.focus()
     for key in ("ArrowRight", "ArrowRight", "Shift+ArrowUp"):
         page.keyboard.press(key)
     settle(page)
-    assert bar.get_attribute("aria-valuetext") == "from 52° to 117°"
+    assert bar.get_attribute("aria-valuetext") == "from 52 deg to 117 deg"
     assert page.evaluate("() => document.activeElement.dataset.key") == "bar 1 0"
     page.get_by_label("put the moves together for").select_option("acceleration")
     page.get_by_role("checkbox", name="of table").uncheck()

@@ -1,7 +1,9 @@
 // Scales from values to pixels, round ticks, and the frame of a picture.
 
 import { svg } from "./svg.js";
+import { number, shownUnit } from "./units.js";
 
+const TURN = 360;
 const HIGH = 10; // pixels that a label takes
 
 export function scale([low, high], [start, stop]) {
@@ -28,13 +30,20 @@ export function label(value) {
   return String(Number(value.toPrecision(6))).replace("-", "−");
 }
 
+/** Round ticks of a range in the unit that is shown for its own; of a turn in degrees eighths of it. */
+export function ticksIn(unit, [low, high], count) {
+  const { factor } = shownUnit(unit);
+  if (factor === 1 && unit === "deg" && high - low === TURN) return Array.from({ length: 9 }, (_, i) => low + (i * TURN) / 8);
+  return ticks(low * factor, high * factor, count).map((value) => value / factor);
+}
+
 /** Grid, ticks and names of both axes; `box` is {left, right, top, bottom} in pixels. */
-export function frame(box, x, y, { xs, ys, xname, yname, xlabels = true }) {
+export function frame(box, x, y, { xs, ys, xname, yname, xlabels = true, unit = "" }) {
   const group = svg("g", { class: "frame", "aria-hidden": "true" });
   for (const value of xs) {
     const at = x(value).toFixed(1);
     group.append(svg("line", { class: "grid", x1: at, x2: at, y1: box.top, y2: box.bottom }));
-    if (xlabels) group.append(svg("text", { class: "tick", x: at, y: box.bottom + 15, "text-anchor": "middle", text: label(value) }));
+    if (xlabels) group.append(svg("text", { class: "tick", x: at, y: box.bottom + 15, "text-anchor": "middle", text: number(value, unit) }));
   }
   // where labels would touch every other one is written
   const every = ys.length > 2 && Math.abs(y(ys[1]) - y(ys[0])) < HIGH ? 2 : 1;

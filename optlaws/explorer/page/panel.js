@@ -1,9 +1,9 @@
 // One quantity over a variable: its curves, its limits, its peaks, and what a cursor reads of it.
 
-import { frame, label, scale, ticks } from "./axes.js";
+import { frame, label, scale, ticks, ticksIn } from "./axes.js";
 import { peakMarks } from "./peak_marks.js";
 import { path, svg } from "./svg.js";
-import { number } from "./units.js";
+import { number, variableOf } from "./units.js";
 
 export const BOX = { left: 64, right: 14, top: 20, bottom: 6 };
 export const FOOT = 34;
@@ -33,7 +33,7 @@ export class Panel {
     this.#box = { left: BOX.left, right: width - BOX.right, top: BOX.top, bottom: height - BOX.bottom };
     this.#x = scale(shown.span, [this.#box.left, this.#box.right]);
     const high = height + (last ? FOOT : 0);
-    this.element = svg("svg", { class: "curve", width, height: high, viewBox: `0 0 ${width} ${high}`, role: "img", "aria-label": told(panel, shown.answer.across) });
+    this.element = svg("svg", { class: "curve", width, height: high, viewBox: `0 0 ${width} ${high}`, role: "img", "aria-label": told(panel, shown.answer) });
     this.#draw(last);
   }
 
@@ -88,8 +88,8 @@ export class Panel {
     const room = ((high - low || 1) * ROOM) / (box.bottom - box.top - 2 * ROOM);
     this.#y = scale([low < 0 || this.#shown.zoomed ? low - room : low, high + room], [box.bottom, box.top]);
     const [x, y] = [this.#x, this.#y];
-    const xs = !this.#shown.zoomed && answer.ticks ? answer.ticks : ticks(...span, 8);
-    this.element.append(frame(box, x, y, { xs, ys: ticks(low, high, Math.min(4, Math.max(2, Math.floor((box.bottom - box.top) / 18)))), xlabels: last, xname: last ? answer.across : "" }));
+    const xs = !this.#shown.zoomed && answer.ticks ? answer.ticks : ticksIn(answer.unit, span, 8);
+    this.element.append(frame(box, x, y, { xs, ys: ticks(low, high, Math.min(4, Math.max(2, Math.floor((box.bottom - box.top) / 18)))), xlabels: last, xname: last ? variableOf(answer) : "", unit: answer.unit }));
     this.element.append(svg("text", { class: "title", x: box.left, y: 13, text: titled(this.#panel) }));
     if (this.#panel.note) this.element.append(svg("text", { class: "limit-name", x: box.left + WRITTEN * (titled(this.#panel).length + 2), y: 13, text: this.#panel.note }));
     const inside = svg("clipPath", { id: `inside-${name}` }, svg("rect", { x: box.left, y: box.top - 8, width: box.right - box.left, height: box.bottom - box.top + 14 }));
@@ -152,9 +152,9 @@ function between({ at, values }, place) {
 }
 
 /** A picture in words: what it shows, its peaks with their places, and its limits. */
-function told(panel, across) {
+function told(panel, answer) {
   const series = seriesOf(panel);
-  const peaks = (panel.peaks ?? []).map((peak) => `${peak.text ?? number(peak.value)} at ${label(peak.at)}`);
+  const peaks = (panel.peaks ?? []).map((peak) => `${peak.text ?? number(peak.value)} at ${number(peak.at, answer.unit)}`);
   const values = peaks.length ? [] : series.flatMap((one) => one.values).filter((value) => value !== null);
   // what is drawn is no value: between two of its places the curve may be higher
   const about = (value) => label(Number(value.toPrecision(2)));
@@ -163,5 +163,5 @@ function told(panel, across) {
   const limits = [...new Set((panel.limits ?? []).map((limit) => edges(limit).filter(Number.isFinite).map(label).join(" to ")))].filter(Boolean);
   const words = [...peaks, ...range, ...(limits.length ? [`within ${limits.join("; ")}`] : [])];
   if (!series.length) return `${titled(panel)}: nothing to draw`;
-  return `${titled(panel)} over ${across}${words.length ? `: ${words.join(", ")}` : ""}`;
+  return `${titled(panel)} over ${variableOf(answer)}${words.length ? `: ${words.join(", ")}` : ""}`;
 }

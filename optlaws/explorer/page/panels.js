@@ -1,21 +1,20 @@
 // Curves in panels one below the other over one variable, read by one cursor, zoomed and moved together.
 //
-// An answer has {across, range, ticks, panels, segments, active, symbol}: the name of the variable, its range (a turn unless
-// given), its ticks, its symbol, a panel for each quantity, the law whose curve is read first, and the segments of a motion,
+// An answer has {across, unit, note, range, ticks, panels, segments, active, symbol}: the name of the variable, its unit, what
+// stands behind it, its range (a turn unless given), its ticks, its symbol, a panel for each quantity, the law whose curve is read first, and the segments of a motion,
 // {name, at: [from, to]}. A panel is {name, unit, symbol, series, limits, peaks, ends, beyond, span, note}:
 // `series` are its curves, each {at, values, name, law, dots}, `law` being the number of its colour, `dots` that points are drawn; `limits`
 // are {from, to, value, least}, `peaks` {at, value, and text if it is no plain number}; `span` is what is in sight at least; `note` stands beside the name.
 //
 // Wheel, drag, + and - zoom and move; arrow keys move the cursor from place to place, Page keys from peak to peak.
 
-import { label } from "./axes.js";
 import { Cursor } from "./cursor.js";
 import { FOOT, Panel } from "./panel.js";
 import { Span } from "./span.js";
 import { html, sized } from "./svg.js";
-import { panelsInUnits } from "./units.js";
+import { number, panelsInUnits } from "./units.js";
 
-const TURN = { range: [0, 360], ticks: [0, 45, 90, 135, 180, 225, 270, 315, 360] };
+const TURN = [0, 360];
 const LEAST = 84;
 const ZOOM = 1.5;
 const CLICK = 4; // pixels within which a press is no drag
@@ -89,7 +88,7 @@ export class Panels {
       this.#drawings.replaceChildren(html("div", { class: "nothing" }, html("strong", { text: nothing.word }), html("span", { text: "there is nothing to draw" })));
       return;
     }
-    const answer = { ...(this.#shown.range ? {} : TURN), ...this.#shown };
+    const answer = { range: TURN, ...this.#shown };
     const { panels, segments } = answer;
     this.#span.of(answer.range);
     const { shown: span, zoomed } = this.#span;
@@ -115,7 +114,7 @@ export class Panels {
   #read(at) {
     if (!this.#panels.length) return;
     const texts = this.#panels.map((panel) => panel.read(at)).filter(Boolean);
-    const here = at === null ? "" : `${this.#shown.symbol ? `${this.#shown.symbol} = ` : ""}${label(at)}`;
+    const here = at === null ? "" : `${this.#shown.symbol ? `${this.#shown.symbol} = ` : ""}${number(at, this.#shown.unit)}`;
     this.#value.textContent = here;
     this.#dial.value = at ?? this.#span.shown[0];
     this.#dial.setAttribute("aria-valuetext", at === null ? "not placed" : `${here}: ${texts.join(", ")}`);

@@ -1,8 +1,9 @@
 // The segments of a motion as bars above its curves; the joints between them are dragged, or moved by keys.
 
-import { label, scale } from "./axes.js";
+import { scale } from "./axes.js";
 import { BOX } from "./panel.js";
 import { html, sized } from "./svg.js";
+import { number } from "./units.js";
 
 const NARROW = 7; // pixels a letter of a name takes
 
@@ -27,8 +28,8 @@ export class Strip {
     this.#size = sized(this.element, () => this.#shown && this.show(...this.#shown));
   }
 
-  show({ segments = [], range }, span) {
-    this.#shown = [{ segments, range }, span];
+  show({ segments = [], range, unit }, span) {
+    this.#shown = [{ segments, range, unit }, span];
     const [width] = this.#size();
     this.#x = scale(span, [BOX.left, width - BOX.right]);
     const x = (value) => Math.min(width - BOX.right, Math.max(BOX.left, this.#x(value)));
@@ -39,13 +40,13 @@ export class Strip {
       const [from, to] = segments[i].at.map(x);
       Object.assign(bar.style, { left: `${from}px`, width: `${to - from}px` });
       bar.firstElementChild.hidden = to - from < NARROW * segments[i].name.length;
-      bar.title = `${segments[i].name}: ${label(segments[i].at[0])} to ${label(segments[i].at[1])}`;
+      bar.title = `${segments[i].name}: ${number(segments[i].at[0], unit)} to ${number(segments[i].at[1], unit)}`;
     });
     this.#joints.forEach((joint, i) => {
       const at = segments[i].at[1];
       joint.hidden = at < span[0] || at > span[1];
       joint.style.left = `${x(at)}px`;
-      const values = { "aria-valuemin": segments[i].at[0], "aria-valuemax": segments[i + 1]?.at[1] ?? range[1], "aria-valuenow": at, "aria-valuetext": label(at) };
+      const values = { "aria-valuemin": segments[i].at[0], "aria-valuemax": segments[i + 1]?.at[1] ?? range[1], "aria-valuenow": at, "aria-valuetext": number(at, unit) };
       for (const [name, value] of Object.entries(values)) joint.setAttribute(name, value);
     });
   }

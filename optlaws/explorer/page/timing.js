@@ -1,11 +1,12 @@
 // The timing diagram of axes: a row for each, moves as bars that are dragged, and what interlocks say between rows.
 
-import { frame, scale } from "./axes.js";
+import { frame, scale, ticksIn } from "./axes.js";
 import { moved, roomOf } from "./instants.js";
 import { html, path, renew, sized, svg } from "./svg.js";
+import { variableOf, written as inUnits } from "./units.js";
 
 const BOX = { left: 84, right: 16, top: 8, foot: 40 };
-const TURN = [0, 45, 90, 135, 180, 225, 270, 315, 360];
+const TURN = [0, 360];
 const ROW = { least: 58, most: 92, name: 15 };
 const ABOUT = 276; // pixels that all rows take where they can
 const EDGE = 7; // pixels at the ends of a bar by which it is made longer or shorter
@@ -66,11 +67,11 @@ export class Timing {
       this.#root.replaceChildren(html("div", { class: "nothing" }, html("strong", { text: this.#shown.refused.word }), html("span", { text: "there is nothing to draw" })));
       return;
     }
-    const { rows, across } = this.#shown;
+    const { rows, unit } = this.#shown;
     const each = Math.min(ROW.most, Math.max(ROW.least, Math.floor(ABOUT / rows.length)));
     const height = BOX.top + each * rows.length + BOX.foot;
     const box = { left: BOX.left, right: width - BOX.right, top: BOX.top, bottom: height - BOX.foot };
-    this.#x = scale([0, 360], [box.left, box.right]);
+    this.#x = scale(TURN, [box.left, box.right]);
     this.#svg.setAttribute("width", width);
     this.#svg.setAttribute("height", height);
     const scales = rows.map(({ values }, i) => {
@@ -82,7 +83,7 @@ export class Timing {
     for (const name of ["y1", "y2"]) this.#cursor.setAttribute(name, name === "y1" ? box.top : box.bottom);
     renew(
       this.#svg,
-      frame(box, this.#x, scales[0], { xs: TURN, ys: [], xname: across }),
+      frame(box, this.#x, scales[0], { xs: ticksIn(unit, TURN, 8), ys: [], xname: variableOf(this.#shown), unit }),
       ...rows.map((row, i) => this.#row(row, i, scales[i], box, each)),
       ...this.#shown.arrows.flatMap((arrow) => this.#arrow(arrow, scales)),
       this.#cursor,
@@ -107,7 +108,7 @@ export class Timing {
   #bar(row, i, bar, place, top, each) {
     const number = row.bars.indexOf(bar);
     const [from, to] = [this.#x(bar.from), this.#x(bar.to)];
-    const angle = (value) => `${Number(value.toFixed(2))}°`;
+    const angle = (value) => inUnits({ value: Number(value.toFixed(2)), unit: "deg", digits: 5 });
     const text = `${bar.name} ${angle(bar.to - bar.from)}`;
     const edges = to - from >= SHORT ? [["start", from], ["stop", to - EDGE]] : [];
     const group = svg(

@@ -5,7 +5,7 @@ import { html, renew } from "./svg.js";
 import { listed, plain, written } from "./units.js";
 
 export function showTrust(root, view, ways, go) {
-  mark(root, view?.refused ? written(view.refused.reason) : "");
+  marked(root, view?.refused ? written(view.refused.reason) : "");
   root.classList.toggle("none", Boolean(view?.refused));
   if (!view) renew(root);
   else if (view.refused) renew(root, ...refusal(view.refused, ways, go));
@@ -14,10 +14,10 @@ export function showTrust(root, view, ways, go) {
 }
 
 /** Mark the fields of a view that a refusal names with the value that they have. */
-function mark(root, reason) {
+export function marked(root, reason) {
   const quoted = [...reason.matchAll(/'([^']*)'/g)].map(([, value]) => value);
   for (const field of root.closest(".view").querySelectorAll("input[type=text]")) {
-    const named = reason.includes(field.getAttribute("aria-label")?.split(" ").at(-1));
+    const named = field.getAttribute("aria-label")?.match(/\w{3,}/g)?.some((word) => reason.includes(word));
     if (named && quoted.includes(plain(field.value.trim()))) field.setAttribute("aria-invalid", "true");
     else field.removeAttribute("aria-invalid");
   }

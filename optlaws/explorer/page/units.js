@@ -53,6 +53,9 @@ export function headed(name, unit) {
   return unit ? `${name}, ${shownUnit(unit).unit}` : name;
 }
 
+/** The name of what pictures are over, with its unit: "master, deg (300 ms a turn)". */
+export const variableOf = ({ across, unit, note = "" }) => `${headed(across, unit)}${note}`;
+
 /** A number as text in the unit that is shown for its own, to so many digits. */
 export function number(value, unit = "", digits = 6) {
   if (!Number.isFinite(value)) return "∞";

@@ -38,7 +38,9 @@ def answer(request: CycleRequest) -> dict[str, Any]:
     report, scale = cast("AxesReport", axes.report()), TURN_DEG / axes.duration
     clearances = map(report.clearance, range(len(axes.rules)))
     return {
-        "across": f"master, deg ({digits(1e3 * axes.duration)} ms a turn)",
+        "across": "master",
+        "unit": "deg",
+        "note": f" ({digits(1e3 * axes.duration)} ms a turn)",
         "period": axes.duration,
         "at": drawn(scale * report.positions[0].series[0].at, 4),
         "rows": list(map(_row, axes.values(), report.positions)),

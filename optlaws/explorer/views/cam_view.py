@@ -14,7 +14,7 @@ from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import PRESSURE
 from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.forces import Surfaces
-from optlaws.cams.report import CamReport, forces_section
+from optlaws.cams.report import CamReport, forces_section, leaves
 from optlaws.cycles.specification.drive import CONSTANTS
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located
 from optlaws.explorer.views.cycle_view import SEGMENTS, CycleRequest
@@ -42,7 +42,8 @@ def answer(request: CycleRequest) -> dict[str, Any]:
     return drawing(cam, spec.cutter_radius) | {
         "dimensions": _dimensions(spec, cam),
         "panels": [displacement, pressure, radius],
-        "across": "angle of the cam, deg",
+        "across": "angle of the cam",
+        "unit": "deg",
         "segments": [],
         "trust": _trust(report),
     }
@@ -148,7 +149,7 @@ def form() -> dict[str, Any]:
 
 
 def loads(request: CycleRequest) -> dict[str, Any]:
-    """Panels and words of a cam whose motion has a drive, and whether its follower lifts off; none without a drive."""
+    """Panels and words of a cam whose motion has a drive, and whether its follower leaves it; none without a drive."""
     try:
         result = result_of(request)
         if result.spec.motion.drive is None:
@@ -160,7 +161,7 @@ def loads(request: CycleRequest) -> dict[str, Any]:
         return {
             "panels": panels,
             "facts": [*fact_sentences(section.facts, section.digits), *_spring(result)],
-            "lifts_off": forces.lifts_off,
+            "leaves": leaves(forces),
         }
     except OptlawsError as error:
         return {"panels": [], "facts": [sentence("{}", error.args[0])]}

@@ -67,7 +67,9 @@ def answer(request: CycleRequest) -> dict[str, Any]:
     shown = cycle(request)
     report = CycleReport(shown)
     return {
-        "across": f"master, deg ({digits(MILLI * shown.duration)} ms a turn)",
+        "across": "master",
+        "unit": "deg",
+        "note": f" ({digits(MILLI * shown.duration)} ms a turn)",
         "turn": MILLI * shown.duration,
         "symbol": "master",
         "panels": [panel_data(replace(report.panel(nu), per=TURN_DEG / shown.duration)) for nu in report.orders],

@@ -105,7 +105,7 @@ def _read(request: CycleRequest) -> tuple[CycleProblemFile, list[AxisEntries], i
     """The study, the axes of the requested machine, which differ in their laws, and the place of the one on display."""
     spec, axis = cycle_view.read(request)
     if axis.mechanism is None:
-        raise InputError(f"{axis.name} has no mechanism: choose a kind of mechanism, or see it in the view Cycle")
+        raise InputError(f"{axis.name} has no mechanism: choose a kind of mechanism, or see it in Motion")
     same = [other for other in spec.axis if (other.mechanism, other.drive) == (axis.mechanism, axis.drive)]
     first = [other for other in same if other is not axis][: MOST_LAWS - 1]
     beside = [other for other in same if other is axis or any(other is chosen for chosen in first)]
@@ -244,7 +244,9 @@ def _pictures(cycle: Plan, entries: Mapping[str, Any], used: tuple[float, float]
             **_parts(report, x, entries),
         },
         "over_input": {
-            "across": f"input of the {mechanism.name}, {unit}; lines: what the cycle uses",
+            "across": f"input of the {mechanism.name}",
+            "unit": unit,
+            "note": "; lines: what the cycle uses",
             "range": [panels[0]["series"][0]["at"][i] for i in (0, -1)],
             "panels": panels,
             "segments": [{"name": "", "at": list(used)}, {"name": "", "at": [used[1]] * 2}],

@@ -81,12 +81,13 @@ def answer(request: CycleRequest) -> dict[str, Any]:
     panels = [panel_data(_thinned(panel, stride)) for panel in report.panels]
     panels[1]["limits"] = [{"from": ends[0], "to": ends[1], "value": within}]
     return {
-        "across": f"master, {old.master}",
+        "across": "master",
         "range": ends,
-        "symbol": old.master,
+        "symbol": "master",
         "within": within,
         "stroke": float(np.ptp(old.heights)),
-        "unit": old.unit,
+        "unit": old.master,
+        "heights": old.unit,
         "drawn": "" if stride == 1 else f"every {stride}th point is drawn",
         "panels": panels,
         "segments": segments_data(report.segments, report.panels[0]),

@@ -96,7 +96,14 @@ def table_data(table: ReportTable) -> dict[str, Any]:
 
 def over_time(panels: Sequence[dict[str, Any]], duration: float, of: str = "") -> dict[str, Any]:
     """Panels as JSON over the time in milliseconds, and what they are of."""
-    return {"across": f"time, ms{of}", "symbol": "t, ms", "range": [0.0, MILLI * duration], "panels": panels}
+    return {
+        "across": "time",
+        "unit": "ms",
+        "note": of,
+        "symbol": "t",
+        "range": [0.0, MILLI * duration],
+        "panels": panels,
+    }
 
 
 def beside_each_other(shown: Sequence[Panel], laws: Sequence[tuple[int, Sequence[Panel]]]) -> list[Panel]:

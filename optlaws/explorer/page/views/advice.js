@@ -4,9 +4,10 @@
 import { Chart, spanOf } from "../chart.js";
 import { group } from "../fields.js";
 import { Latest } from "../latest.js";
+import { valueOf } from "../entries.js";
 import { Panels } from "../panels.js";
 import { html, renew } from "../svg.js";
-import { unanswered } from "../trust.js";
+import { marked, unanswered } from "../trust.js";
 import { headed, number, plain, shownUnit, written } from "../units.js";
 
 const SOURCES = { cycle: "the cycle", machine: "the machine" };
@@ -65,7 +66,7 @@ export class View {
 
   request(state) {
     const { minimise, follower } = this.#asked(state);
-    const vibrates = follower?.on && { follower: { frequency: [follower.low, follower.high], damping: Number(follower.damping) || 0 } };
+    const vibrates = follower?.on && { follower: { frequency: [follower.low, follower.high], damping: follower.damping || 0 } };
     return { study: this.#motion(state), axis: state.axis, ...(minimise && { minimise }), ...vibrates };
   }
 
@@ -126,7 +127,7 @@ export class View {
 
   #text(key, name) {
     const field = html("input", { type: "text", spellcheck: "false", maxlength: 40, "aria-label": `follower, ${name}` });
-    field.addEventListener("input", () => this.#change(`follower ${key}`, ({ follower }) => (follower[key] = key === "damping" ? Number(plain(field.value.trim())) || 0 : plain(field.value.trim()))));
+    field.addEventListener("input", () => this.#change(`follower ${key}`, ({ follower }) => (follower[key] = valueOf(plain(field.value.trim())))));
     field.addEventListener("change", () => this.#study.rest());
     this.#shows.push((state) => {
       const { follower } = this.#asked(state);
@@ -161,6 +162,7 @@ export class View {
 
   #draw(error = null) {
     const answer = this.#answer;
+    marked(this.#at.words, answer.refused ? written(answer.refused.reason) : "");
     this.#at.words.classList.toggle("none", Boolean(answer.refused));
     renew(this.#at.words, ...(answer.refused ? refusal(answer.refused) : [...(answer.chosen ? this.#words(answer) : []), ...this.#progress(error)]));
     renew(this.#at.table, ...(answer.refused ? [] : [this.#table(answer), ...(answer.remarks ?? []).map((text) => html("p", { class: "quiet", translate: "no", text }))]));

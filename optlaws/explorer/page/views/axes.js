@@ -115,8 +115,8 @@ export class View {
     const { study } = this.#asked;
     this.#timing.show(this.#answer, study, known.map(({ status }) => status), told(study) === told(this.#study.state.axes));
     this.#positions.show(this.#answer, this.#study.state.plane ?? 0, known);
-    const { refused, panels, across, planes = [] } = this.#answer;
-    this.#rooms.show(refused ? this.#answer : { across, panels: known.length ? this.#known.panels : panels, segments: [] });
+    const { refused, panels, across, unit, note, planes = [] } = this.#answer;
+    this.#rooms.show(refused ? this.#answer : { across, unit, note, panels: known.length ? this.#known.panels : panels, segments: [] });
     const { choice } = this.#parts;
     const names = planes.map(({ axes }) => axes.join(" and "));
     if (told(names) !== told([...choice.options].map(({ text }) => text))) choice.replaceChildren(...names.map((text, value) => html("option", { value, text, translate: "no" })));

@@ -86,10 +86,10 @@ export class View {
   }
 
   /** What the cam bears stands below its geometry. */
-  #bear({ panels, facts, lifts_off: lifts = false }) {
+  #bear({ panels, facts, leaves = "" }) {
     for (const old of element("cam-trust").querySelectorAll(".loads")) old.remove();
     // a cam that its follower leaves is no good one, whatever can be cut
-    if (lifts) element("cam-trust").querySelector("p")?.prepend(html("strong", { class: "word bad loads", text: "lifts off" }), " ");
+    if (leaves) element("cam-trust").querySelector("p")?.prepend(html("strong", { class: `word ${leaves.endsWith("off") ? "bad" : "warn"} loads`, text: leaves.replace("the follower ", "") }), " ");
     if (facts.length) element("cam-trust").querySelector(".sizes")?.before(html("p", { class: "facts loads", text: listed(facts) }));
     this.#mechanism.bear(panels.find(({ name }) => name === "contact force")?.series[0] ?? null);
     if (this.#answer && !this.#answer.refused) this.#motion.show({ ...this.#answer, panels: [...this.#answer.panels, ...panels] });

@@ -128,7 +128,7 @@ export class View {
       this.#gains.replaceChildren();
       return;
     }
-    const { moves, unit, drawn, tables: [stretches, gains] } = answer;
+    const { moves, heights: unit, drawn, tables: [stretches, gains] } = answer;
     this.#moves.replaceChildren(table("Moves of the table", stretches.headings, stretches.rows), html("p", { class: "facts", text: ["A old law · B new law · C points", drawn].filter(Boolean).join(" · ") }));
     const words = `Laws of least acceleration within ${written({ value: answer.within, unit, digits: 6 })} of the old ones at every place; jerk at most a fifth above.`;
     const button = html("button", { type: "button", text: "Find better laws", onclick: () => {
@@ -142,7 +142,7 @@ export class View {
   }
 
   /** The tolerance is dragged up to a fiftieth of the stroke, or typed. */
-  #measure({ stroke, unit, within }) {
+  #measure({ stroke, heights: unit, within }) {
     const high = Number((stroke / 50).toPrecision(1));
     const step = 10 ** Math.floor(Math.log10(high / 100));
     this.#within = slider({
