@@ -22,6 +22,10 @@ from tests.internals.cli import output
 #: on a slow machine commands would say every ten seconds what they are doing, beside the answers that tests compare
 output.BETWEEN_LINES = 3600.0
 
+# tests start some hundred processes, each of which would compile the package again
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
+
 #: the gallery's examples are run when the pages are made, and their copies stand beside them
 collect_ignore_glob = ["docs/examples/*.py", "docs/gallery/*", "docs/_build/*"]
 
