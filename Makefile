@@ -68,9 +68,6 @@ format: $(DEV) ## format the code and mend what can be mended
 	$(BIN)/ruff check --fix
 
 docs: $(DEV) ## build the documentation into docs/_build/html
-	$(BIN)/python docs/_ext/module_tree.py
-	$(BIN)/python -m docs._ext.entry_tables
-	$(BIN)/python -m docs._ext.option_tables
 	$(BIN)/python -m sphinx -b html -W --keep-going -n -E -q docs docs/_build/html
 
 bench: $(DEV) ## run the benchmarks

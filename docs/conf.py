@@ -6,7 +6,7 @@ from pathlib import Path
 
 import optlaws
 
-sys.path.insert(0, str(Path(__file__).parent / "_ext"))
+sys.path[:0] = [str(Path(__file__).parent / "_ext"), str(Path(__file__).parents[1])]
 
 project = "optlaws"
 author = copyright = "the optlaws developers"
@@ -14,8 +14,11 @@ version = release = optlaws.__version__
 
 extensions = [
     "code_lines",
+    "docs._ext.entry_tables",
+    "docs._ext.option_tables",
     "docstrings",
     "mathml",
+    "module_tree",
     "myst_parser",
     "public_names",
     "sphinx.ext.autodoc",

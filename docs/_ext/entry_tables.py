@@ -1,12 +1,14 @@
 """The tables of entries in docs/reference/problem-files.md, made from what the values of problem files declare.
 
-`python docs/_ext/entry_tables.py` writes them again; tests/test_documents.py holds the page to them. A new table is a
-line of `TABLES`, and its two marks in the page: `<!-- entries of NAME -->` and `<!-- end of the entries of NAME -->`.
+They come into the page when it is built. A new table is a line of `TABLES`, and its mark in the page:
+`<!-- entries of NAME -->`.
 """
+
+from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from optlaws.cams.barrel import Groove
 from optlaws.entries.reference import markdown_table
@@ -20,7 +22,10 @@ from optlaws.mechanisms.drives.motor import Motor
 from optlaws.mechanisms.linkages.mechanism_kinds import Body, Loads, MechanismKind
 from optlaws.synthesis.problem.problem import PROBLEM
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "problem-files.md"
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
+
+PAGE = "reference/problem-files"
 #: tables of declared values by their names; of some entries the entries stand elsewhere
 TABLES: dict[str, Callable[[], str]] = {
     "a table of solutions": partial(
@@ -47,19 +52,27 @@ TABLES: dict[str, Callable[[], str]] = {
 }
 
 
-def between_marks(page: str, what: str, tables: Mapping[str, Callable[[], str]]) -> str:
-    """The page with these tables, each between its marks, which say what it lists and by which name."""
+def with_tables(page: str, what: str, tables: Mapping[str, Callable[[], str]]) -> str:
+    """The page with these tables, each below its mark, which says what it lists and by which name."""
     for name, table_of in tables.items():
-        begin, end = f"<!-- {what} of {name} -->\n", f"<!-- end of the {what} of {name} -->\n"
-        before, _, rest = page.partition(begin)
-        page = f"{before}{begin}\n{table_of()}\n\n{end}{rest.partition(end)[2]}"
+        mark = f"<!-- {what} of {name} -->\n"
+        if mark not in page:
+            raise ValueError(f"the page has no mark {mark.strip()}")
+        page = page.replace(mark, f"{mark}\n{table_of()}\n")
     return page
 
 
 def page_with_tables(page: str) -> str:
-    """The page with the entries of today."""
-    return between_marks(page, "entries", TABLES)
+    """The page of problem files with all tables."""
+    return with_tables(page, "entries", TABLES)
 
 
-if __name__ == "__main__":
-    PAGE.write_text(page_with_tables(PAGE.read_text("utf-8")), "utf-8")
+def _fill(_app: Sphinx, page: str, source: list[str]) -> None:
+    if page == PAGE:
+        source[0] = page_with_tables(source[0])
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Fill the page as it is read."""
+    app.connect("source-read", _fill)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

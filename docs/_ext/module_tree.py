@@ -1,15 +1,20 @@
 """The rooms in docs/architecture.md: the folders of the package with the first lines of their docstrings.
 
-`python docs/_ext/module_tree.py` writes it again; tests/test_documents.py holds the page to it.
+The tree comes into the page when it is built.
 """
+
+from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs" / "architecture.md"
-BEGIN, END = "<!-- the tree, made by docs/_ext/module_tree.py -->\n", "<!-- end of the tree -->\n"
+MARK = "<!-- the tree -->\n"
 _INDENT = "  "
 _COLUMN = 30
 
@@ -35,12 +40,12 @@ def tree() -> str:
     return "\n".join(["```text", *lines(ROOT / "optlaws"), "```", ""])
 
 
-def page_with_tree(page: str) -> str:
-    """The page with the rooms of today."""
-    before, _, rest = page.partition(BEGIN)
-    _, _, after = rest.partition(END)
-    return f"{before}{BEGIN}\n{tree()}\n{END}{after}"
+def _fill(_app: Sphinx, page: str, source: list[str]) -> None:
+    if page == "architecture":
+        source[0] = source[0].replace(MARK, tree())
 
 
-if __name__ == "__main__":
-    PAGE.write_text(page_with_tree(PAGE.read_text("utf-8")), "utf-8")
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Fill the page as it is read."""
+    app.connect("source-read", _fill)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

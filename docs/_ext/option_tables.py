@@ -1,19 +1,22 @@
 """The tables of docs/reference/command-line.md, made from what the commands declare of their arguments and options.
 
-`python -m docs._ext.option_tables` writes them again; tests/test_documents.py holds the page to them. Each stands
-between two marks in the page: `<!-- options of NAME -->` and `<!-- end of the options of NAME -->`.
+They come into the page when it is built, each below its mark: `<!-- options of NAME -->`.
 """
+
+from __future__ import annotations
 
 from functools import partial
 from inspect import Parameter
 from itertools import groupby
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from docs._ext.entry_tables import between_marks
+from docs._ext.entry_tables import with_tables
 from optlaws.cli.app import COMMANDS, app
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "reference" / "command-line.md"
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
+
+PAGE = "reference/command-line"
 #: commands that take the options of another, which stand there
 SHARED = {"front": "solve"}
 #: of options that need no heading of their own
@@ -52,9 +55,16 @@ def _row(argument: Any) -> str:
 
 
 def page_with_tables(page: str) -> str:
-    """The page with the options of today."""
-    return between_marks(page, "options", {name: partial(option_tables, name) for name in COMMANDS})
+    """The page of the command line with all tables."""
+    return with_tables(page, "options", {name: partial(option_tables, name) for name in COMMANDS})
 
 
-if __name__ == "__main__":
-    PAGE.write_text(page_with_tables(PAGE.read_text("utf-8")), "utf-8")
+def _fill(_app: Sphinx, page: str, source: list[str]) -> None:
+    if page == PAGE:
+        source[0] = page_with_tables(source[0])
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Fill the page as it is read."""
+    app.connect("source-read", _fill)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
