@@ -172,7 +172,7 @@ def test_killed_twenty_times_it_ends_as_if_nothing_had_been(tmp_path: Path) -> N
 
 
 def test_ctrl_c_ends_with_130_and_the_command_goes_on(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    file, out = study_file(tmp_path, FILE.replace("250", "150")), tmp_path / "out"
+    file, out = study_file(tmp_path, FILE.replace("250", "60")), tmp_path / "out"
     run = Run(file, out)
     assert run.wait_for_rows(2000)
     solvers = run.solvers()
@@ -183,13 +183,13 @@ def test_ctrl_c_ends_with_130_and_the_command_goes_on(tmp_path: Path, capsys: py
     assert gone(solvers)
     study = open_study(out)
     done = sum(study.counts.values())
-    assert 0 < done < 300
+    assert 0 < done < 120
     assert not study.running
     assert exit_code(["study", "--status", str(out), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["done"] == done
     again = Run(file, out)
     status, text = again.finish()
     assert status == 0
-    assert f"{done} of 300 points done before" in text
-    assert "300 of 300" in text
+    assert f"{done} of 120 points done before" in text
+    assert "120 of 120" in text
     assert rows(open_study(out)) == rows(serially(tomllib.loads(file.read_text()), tmp_path / "undisturbed"))

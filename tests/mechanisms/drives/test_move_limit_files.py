@@ -76,7 +76,7 @@ def test_each_limit_is_verified_and_read_again(name: str) -> None:
     assert MoveLimit.from_json(limit.to_json()) == limit, name
 
 
-@pytest.mark.sample(6)
+@pytest.mark.sample(9)
 @pytest.mark.parametrize("name", MADE)
 def test_each_statement_of_a_file_is_that_of_its_move(name: str) -> None:
     limit = limit_of(name)
