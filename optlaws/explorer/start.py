@@ -17,7 +17,7 @@ from optlaws.files import reading
 from optlaws.files.packaged import is_problem, problem_file
 from optlaws.jobs.cycle_entries import CycleProblemFile, motor_of
 from optlaws.jobs.solutions import SolutionsProblemFile, swept_entries
-from optlaws.laws.catalogue.reading import is_file, is_table, law_of_points, read_law
+from optlaws.laws.catalogue.reading import is_file, is_table, law_of_points, read_law, with_files
 from optlaws.studies.problem_entries import problem
 
 _FIRST = {"order": 4, "degree": 9, "B": 1.7}
@@ -33,7 +33,9 @@ def start(given: str | None) -> dict[str, Any]:
         return _law({"problem": dict(_FIRST)})
     if is_problem(given):
         file = problem_file(Path(given))
-        return _of_problem_file(_with_motors(reading.toml(file), file), str(file))
+        with located(str(file)):
+            data = _with_motors(with_files(reading.toml(file), file.parent))
+        return _of_problem_file(data, str(file))
     if not is_file(given):
         read_law(given)
         return _law({"name": given})
@@ -108,7 +110,8 @@ def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
     """The view of a job, or a single law where the file has one problem."""
     job: Any = data["job"] if isinstance(data.get("job"), str) else None
     if job == "cycle":
-        axes = CycleProblemFile.read(data, Path(name)).axis
+        with located(name):
+            axes = CycleProblemFile.from_dict(data).axis
         driven = [i for i, axis in enumerate(axes) if axis.mechanism is not None]
         view = next((view for entry, view in _CYCLES.items() if data.get(entry)), "machine" if driven else "cycle")
         return {"view": view, view: data} | ({"axis": driven[0]} if view == "machine" else {})
@@ -124,14 +127,13 @@ def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
         raise InputError("the page shows a law, a cycle, a cam or a move; `optlaws run` does what this file says")
 
 
-def _with_motors(data: dict[str, Any], file: Path) -> dict[str, Any]:
+def _with_motors(data: dict[str, Any]) -> dict[str, Any]:
     """The entries of a file with its motors as tables: the page reads no catalogue."""
     for entry in (entry for part in ("axis", "move") if isinstance(data.get(part), list) for entry in data[part]):
         drive = entry.get("drive") if isinstance(entry, dict) else None
         if isinstance(drive, dict) and isinstance(drive.get("motors"), str) and isinstance(drive.get("motor"), str):
-            with located(str(file)):
-                motor_of(drive["motor"], drive["motors"], file.parent)  # refuses what is no motor of it
-            motors = reading.toml(file.parent / drive.pop("motors"))
+            motor_of(drive["motor"], drive["motors"])  # refuses what is no motor of it
+            motors = reading.toml(Path(drive.pop("motors")))
             drive["motor"] = {"name": drive["motor"], **motors[drive["motor"]]}
     return data
 

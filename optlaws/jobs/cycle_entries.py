@@ -194,30 +194,26 @@ def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, A
     with located(str(file)):
         for axis in spec.axis:
             with located(f"axis {axis.name}"):
-                cycles[axis.name] = cycle_of(axis, spec.speed, spec.period, file.parent)
+                cycles[axis.name] = cycle_of(axis, spec.speed, spec.period)
         return spec, Axes(cycles, interlocks=spec.interlocks)
 
 
-def cycle_of(
-    axis: AxisEntries, speed: NumberOrQuantity | None, period: NumberOrQuantity | None, folder: Path = Path()
-) -> Cycle:
-    """The cycle of an axis, or of its cam where there is a follower; `folder` contains catalogues of motors."""
+def cycle_of(axis: AxisEntries, speed: NumberOrQuantity | None, period: NumberOrQuantity | None) -> Cycle:
+    """The cycle of an axis, or of its cam where there is a follower."""
     shared = (name for name in entries_of(Cycle) if name in entries_of(AxisEntries))
-    entries = {name: getattr(axis, name) for name in shared} | {"drive": drive_of(axis.mechanism, axis.drive, folder)}
+    entries = {name: getattr(axis, name) for name in shared} | {"drive": drive_of(axis.mechanism, axis.drive)}
     cycle = Cycle(axis.segment, speed=speed, period=period, **entries)
     return cycle if axis.follower is None else cycle.cam(axis.follower.period, axis.follower.damping)
 
 
 def drive_of(
-    mechanism: Mapping[str, Any] | None, drive: Mapping[str, Any] | None, folder: Path
+    mechanism: Mapping[str, Any] | None, drive: Mapping[str, Any] | None
 ) -> Mapping[str, Any] | Mechanism | Drive | None:
     """The drive of a cycle as an argument of `Cycle`: constants of a table, a mechanism, or a motor with one.
 
-    `folder` is that to which the path of a catalogue of motors is relative.
-
     >>> table = {"kind": "table", "inertia": "0.8 kg m^2"}
     >>> motor = {"inertia": "3e-4 kg m^2", "peak_torque": "6 N m"}
-    >>> drive_of(table, {"motor": motor, "ratio": 20}, Path()).motor.peak_torque
+    >>> drive_of(table, {"motor": motor, "ratio": 20}).motor.peak_torque
     6.0
     """
     if mechanism is None:
@@ -238,11 +234,11 @@ def drive_of(
         )
     given = dict(drive)
     with located("drive"):
-        given["motor"] = motor_of(given["motor"], given.pop("motors", None), folder)
+        given["motor"] = motor_of(given["motor"], given.pop("motors", None))
         return Drive.from_dict({"mechanism": driven, **given})
 
 
-def motor_of(motor: Any, catalogue: Any, folder: Path) -> Any:
+def motor_of(motor: Any, catalogue: Any) -> Any:
     """The table of a motor, or the motor of a catalogue that its name says."""
     if not isinstance(motor, str):
         if catalogue is not None:
@@ -253,7 +249,7 @@ def motor_of(motor: Any, catalogue: Any, folder: Path) -> Any:
             f"motor: {motor!r} is one of a catalogue: give its file, such as motors = 'motors.toml', or give the motor "
             "as a table"
         )
-    motors = read_motors(folder / Text().read(catalogue, "motors"))
+    motors = read_motors(Path(Text().read(catalogue, "motors")))
     with located(f"motor: {catalogue}"):
         check_names([motor], motors, "motor")
     return motors[motor]

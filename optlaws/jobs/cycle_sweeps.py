@@ -16,6 +16,7 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.files.reading import check_names
 from optlaws.files.tables import Cell
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, SweepEntries, cycle_of
+from optlaws.laws.catalogue.reading import with_files
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import RPM
 from optlaws.shown.report import ReportTable
@@ -181,16 +182,18 @@ def _swept(spec: CycleProblemFile, axis: dict[str, Any], entry: str, value: str 
     where = f"sweep of {entry}, {value}"
     try:
         with located(where):
-            changed = AxisEntries.from_dict(with_entry(axis, entry, value))
-            cycle = cycle_of(changed, spec.speed, spec.period, folder)
+            changed = AxisEntries.from_dict(with_entry(axis, entry, value, folder))
+            cycle = cycle_of(changed, spec.speed, spec.period)
             _ = cycle.peaks  # laws are looked for now
             return SweptCycle(value, cycle, cycle.status)
     except (InfeasibleProblem, SolverFailure) as error:
         return SweptCycle(value, None, Status.of(error), str(error).removeprefix(f"{where}: "))
 
 
-def with_entry(axis: dict[str, Any], entry: str, value: str | float) -> dict[str, Any]:
+def with_entry(axis: dict[str, Any], entry: str, value: str | float, folder: Path = Path()) -> dict[str, Any]:
     """The entries of an axis with another value of a single entry; parts of a list are counted from 1.
+
+    A file that the value names is relative to the folder.
 
     >>> with_entry({"drive": {"ratio": 20}, "segment": [{"by": "3 mm"}]}, "drive.ratio", 30.0)
     {'drive': {'ratio': 30.0}, 'segment': [{'by': '3 mm'}]}
@@ -211,7 +214,7 @@ def with_entry(axis: dict[str, Any], entry: str, value: str | float) -> dict[str
                 place = parts[part]
     if not isinstance(place, dict):
         raise InputError(f"entry {entry!r} must end in the name of an entry, such as drive.ratio")
-    place[last] = value
+    place |= with_files({last: value}, folder)
     return changed
 
 

@@ -6,7 +6,6 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from math import inf
-from pathlib import Path
 from typing import Any
 
 from optlaws.cycles.moves.fastest_move import AXES, FastestMove
@@ -98,7 +97,7 @@ class SoughtMove:
     fronts: tuple[TimeFront, ...]
 
 
-def sought(spec: FastestProblemFile, file: Path) -> list[SoughtMove]:
+def sought(spec: FastestProblemFile) -> list[SoughtMove]:
     """The least times and the fronts of the moves of a file; an error names the move."""
     space = problem("problem", {"order": 3}, spec.problem or {})
     moves = []
@@ -106,15 +105,15 @@ def sought(spec: FastestProblemFile, file: Path) -> list[SoughtMove]:
         step(f"move {move.name}")
         try:
             with located(f"move {move.name}"):
-                moves.append(_sought(move, space, file.parent))
+                moves.append(_sought(move, space))
         except (InfeasibleProblem, SolverFailure) as error:
             raise InputError(error.args[0]) from error
     return moves
 
 
-def _sought(move: MoveEntries, space: Problem, folder: Path) -> SoughtMove:
+def _sought(move: MoveEntries, space: Problem) -> SoughtMove:
     """The least times and the fronts of one move."""
-    given = arguments_of(move, folder)
+    given = arguments_of(move)
     if isinstance(move.stroke, tuple):
         if move.front is not None:
             raise InputError("front: it is that of one stroke: give the strokes to a move of another name")
@@ -144,14 +143,14 @@ def _front(
     return front
 
 
-def arguments_of(move: MoveEntries, folder: Path) -> dict[str, Any]:
+def arguments_of(move: MoveEntries) -> dict[str, Any]:
     """The arguments of `fastest` besides a move's laws and its stroke.
 
-    >>> arguments_of(MoveEntries(name="slide", stroke="100 mm", limits={"jerk": "300 m/s^3"}), Path())["limits"]
+    >>> arguments_of(MoveEntries(name="slide", stroke="100 mm", limits={"jerk": "300 m/s^3"}))["limits"]
     {'jerk': '300 m/s^3'}
     """
     given: dict[str, Any] = {name: getattr(move, name) for name in ("limits", "start_velocity", "end_velocity")}
-    driven = drive_of(move.mechanism, move.drive, folder)
+    driven = drive_of(move.mechanism, move.drive)
     if isinstance(driven, Drive):
         given |= {"drive": driven, "start": move.start or 0.0}
     elif driven is not None:
@@ -186,7 +185,7 @@ def run(results: Results) -> None:
     """Put the tables, the page, the pictures, and laws with their proofs into results."""
     spec = FastestProblemFile.read(results.entries, results.file)
     results.title = spec.title
-    moves = sought(spec, results.file)
+    moves = sought(spec)
     results.table("fastest", HEADINGS, [_line(each.name, move) for each in moves for move in each.moves])
     page = results.page("fastest").text(spec.text)
     for each in moves:

@@ -10,6 +10,7 @@ from typing import Any, Self
 from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Text
 from optlaws.errors import located
+from optlaws.laws.catalogue.reading import with_files
 
 
 @declared
@@ -23,14 +24,14 @@ class ProblemFile(Declared, title="a problem file"):
 
     @classmethod
     def read(cls, data: Mapping[str, Any], file: Path) -> Self:
-        """The value of the entries of a file; an error names the file.
+        """The value of the entries of a file, beside which the files that it names are; an error names the file.
 
         >>> ProblemFile.read({"job": "cam", "titel": "A valve"}, Path("valve.toml"))
         Traceback (most recent call last):
         optlaws.errors.InputError: valve.toml: unknown entry of a problem file 'titel'; did you mean 'title'?
         """
         with located(str(file)):
-            return cls.from_dict(data)
+            return cls.from_dict(with_files(data, file.parent))
 
 
 def plain_name(name: str) -> str:

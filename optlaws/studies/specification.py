@@ -15,6 +15,7 @@ from optlaws.entries.value_types import Choice, Either, Listed, Number, ReadBy, 
 from optlaws.errors import InputError, located
 from optlaws.files import reading
 from optlaws.files.reading import check_names
+from optlaws.laws.catalogue.reading import with_files
 from optlaws.numbers import finite
 from optlaws.synthesis.problem.fields import CONSTANTS, FREE
 from optlaws.synthesis.problem.problem import ENTRIES, PROBLEM
@@ -140,7 +141,7 @@ def read_study(source: Path | str | Mapping[str, Any]) -> StudyFile:
     if isinstance(source, Mapping):
         name, data = "the study", reading.checked(source, "the study")
     else:
-        name, data = str(source), reading.toml(Path(source))
+        name, data = str(source), with_files(reading.toml(Path(source)), Path(source).parent)
     with located(name):
         study = StudyFile.from_dict(data)
         _check_names(study)

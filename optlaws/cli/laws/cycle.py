@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -15,7 +14,6 @@ from optlaws.cli.app import NotProven
 from optlaws.cli.law_options import COLUMNS
 from optlaws.cli.options import Signed, Written, given, options, takes
 from optlaws.cli.show import Answer, busy
-from optlaws.cli.show import save as save_json
 from optlaws.cli.synthesis.run import check_folder, written
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, located
@@ -78,7 +76,7 @@ def cycle(
     export
         A format of `optlaws export --list`: the cycle is written in it, modernised where --modernise is given.
     save
-        Write the cycle as a problem file (.toml), its laws beside it.
+        Write the cycle as a problem file (.toml), which contains its laws.
     """
     cam: dict[str, Any] = {"speed": speed, "modernise": modernise, "export": export, "save": save}
     if file.suffix and file.suffix.lower() != ".toml":
@@ -199,23 +197,11 @@ def _tolerance(text: str, old: OldTable) -> float:
 
 
 def _save(latest: OldTable, place: Path, source: Path, speed: str | None) -> Path:
-    """The problem file of a cycle; laws that have no name as files beside it."""
+    """The problem file of a cycle, with the text of laws that have no name."""
     from optlaws.files.writing import MARK, write
-    from optlaws.laws import MotionLaw
 
-    stretches, laws = [], {}
-    for number, part in enumerate(latest.stretches, start=1):
-        if isinstance(part.law, MotionLaw):
-            beside = place.with_name(f"{place.stem}_{number}_{part.kind}.json")
-            laws[beside] = part.law
-            stretches.append(replace(part, law=str(beside)))
-        else:
-            stretches.append(part)
     with located(_SEGMENTS):
-        # the cycle as a whole, before the first file is written
-        latest.cycle(speed=speed).solve()
-    for beside, law in laws.items():
-        save_json(beside, {"law": law.to_dict()})
-    with located(_SEGMENTS):
-        cycle = replace(latest, stretches=tuple(stretches)).cycle(speed=speed)
-    return write(place, f"# from {source.name}; {MARK}\n{cycle.to_toml(f'The cam of {source.name}', axis='cam')}")
+        cycle = latest.cycle(speed=speed)
+        cycle.solve()  # as a whole, before a file is written
+        text = cycle.to_toml(f"The cam of {source.name}", axis="cam")
+    return write(place, f"# from {source.name}; {MARK}\n{text}")

@@ -140,7 +140,7 @@ def _of_move(move: MoveEntries, entries: str) -> _Search:
     """The least time of a single move, with laws of the space that has such entries."""
     space: Problem = problem("problem", {"order": 3}, json.loads(entries))
     check_size(space.order, space.basis.to_dict().get("degree"))
-    given, strokes = arguments_of(move, _WHERE), move.stroke if isinstance(move.stroke, tuple) else (move.stroke,)
+    given, strokes = arguments_of(move), move.stroke if isinstance(move.stroke, tuple) else (move.stroke,)
     least = fastest(space, stroke=strokes[0], **given)
     drive, minimise = given.get("drive"), None if move.front is None else move.front.minimise[0]
     start = 0.0 if drive is None else float(quantity(given["start"], "angle", "start", bare=True))

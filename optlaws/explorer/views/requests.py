@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
@@ -71,16 +70,11 @@ def read(text: bytes, kind: type[Struct]) -> Struct:
         raise InputError(f"the question cannot be read: {error}") from None
 
 
-_SPECTRUM = re.compile(r"spectrum\s*=\s*(['\"])(.*?)\1")
-_PAIRS = re.compile(r"\s*\{?\s*[-+.\deE]+\s*:")
-
-
 def without_files(entries: Any) -> None:
     """Refuse what names a file, such as a measured spectrum, a law or a catalogue of motors: the page reads none."""
     if isinstance(entries, str):
-        for _, given in _SPECTRUM.findall(entries):
-            if not _PAIRS.match(given):
-                raise InputError(f"spectrum: {given!r} names a file, and the page reads none: drop it onto the page")
+        for match in reading.SPECTRUM_FILE.finditer(entries):
+            raise InputError(f"spectrum: {match[3]!r} names a file, and the page reads none: drop it onto the page")
     elif isinstance(entries, Mapping):
         if entries.get("motors") is not None:
             raise InputError("motors: the page reads no catalogue: give the motor as a table, or start with the file")

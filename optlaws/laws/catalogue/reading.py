@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,10 @@ from optlaws.numbers import not_negative
 _EXACT_DIGITS = 1e-8  # of the stroke: a table whose last digit is less is taken as exact
 #: and one of which it is more says nothing of velocities
 _COARSEST = 0.01
+
+
+#: of a measured spectrum in a formula or the name of a functional, unless its pairs stand there
+SPECTRUM_FILE = re.compile(r"(spectrum\s*=\s*(['\"]))(?!\s*\{?\s*[-+.\deE]+\s*:)(.*?)\2")
 
 
 def law_of_points(
@@ -200,6 +204,31 @@ def is_file(text: str) -> bool:
     if text.lower().endswith(_ENDINGS):
         return True
     return text not in catalogue and reading.is_file(Path(text))
+
+
+def with_files(entries: Any, folder: Path) -> Any:
+    """The entries of a file in a folder, to which the files that they name are relative.
+
+    A law of a file becomes its JSON text; catalogues of motors and measured spectra are then found from where we are.
+
+    Examples
+    --------
+    >>> with_files({"drive": {"motors": "motors.toml"}, "law": "cycloidal"}, Path("press"))
+    {'drive': {'motors': 'press/motors.toml'}, 'law': 'cycloidal'}
+    """
+    if isinstance(entries, str):
+        return SPECTRUM_FILE.sub(lambda match: f"{match[1]}{(folder / match[3]).as_posix()}{match[2]}", entries)
+    if isinstance(entries, Mapping):
+        inside = {with_files(name, folder): with_files(each, folder) for name, each in entries.items()}
+        law, motors = entries.get("law"), entries.get("motors")
+        if isinstance(law, str) and not is_formula(law) and not is_stored(law) and law not in catalogue:
+            beside = str(folder / law)
+            if is_file(beside):
+                inside["law"] = read_law(beside).to_json()
+        if isinstance(motors, str) and motors:
+            inside["motors"] = (folder / motors).as_posix()
+        return inside
+    return [with_files(each, folder) for each in entries] if isinstance(entries, list) else entries
 
 
 def is_table(text: str) -> bool:

@@ -7,9 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from optlaws import catalogue
 from optlaws.verification import verify_all
 from tests.documents import ROOT
 from tests.internals.cli import exit_code
+from tests.internals.explorer import start
 
 FASTEST = ROOT / "problems" / "cycle_fastest.toml"
 PRESS = ROOT / "problems" / "cycle_press.toml"
@@ -88,3 +90,30 @@ def test_a_speed_that_no_table_turns_at_is_refused(speed: str, says: str, tmp_pa
     assert exit_code([*words, "--speed", "60rpm"]) == 0
     assert exit_code([*words, f"--speed={speed}"]) == 2
     assert says in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("law", ["better.json", "old.csv(tolerance=0.001)"])
+def test_files_that_a_file_names_are_beside_it(
+    law: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    """Its results and exports are those of the law, and need the law's file no more."""
+    drawing, elsewhere = tmp_path / "drawing", tmp_path / "elsewhere"
+    drawing.mkdir(), elsewhere.mkdir()
+    (drawing / "better.json").write_text(catalogue["modified sine"].law.to_json(), "utf-8")
+    rows = [f"{k / 64};{catalogue['modified sine'].law.a(k / 64)!r}\n" for k in range(65)]
+    (drawing / "old.csv").write_text("".join(rows), "utf-8")
+    rise = f'kind = "rise"\nby = "35 mm"\nduration = "120 deg"\nlaw = "{law}"'
+    head = 'job = "cycle"\ntitle = "Press"\nspeed = "200 rpm"\n[[axis]]\nname = "slide"\n'
+    rest = '[[axis.segment]]\nkind = "return"\nlaw = "cycloidal"\n'
+    (drawing / "press.toml").write_text(f"{head}[[axis.segment]]\n{rise}\n{rest}", "utf-8")
+    monkeypatch.chdir(elsewhere)
+    for command in ("export {} --to csv --output slide.csv", "cycle {} --out results"):
+        assert exit_code(command.format("../drawing/press.toml").split()) == 0
+    data = json.loads(Path("results", "cycle.json").read_text("utf-8"))
+    assert data["axes"]["slide"]["segments"][0]["velocity"] == pytest.approx(0.35 * 1.759603, rel=5e-3)
+    (shown,) = start("../drawing/press.toml")["cycle"]["axis"]
+    assert shown["segment"][0]["law"].startswith("{")
+    (drawing / "better.json").unlink(), (drawing / "old.csv").unlink()
+    capsys.readouterr()
+    exit_code(["verify", "results/cycle.json"])
+    assert "cannot read" not in capsys.readouterr().err
