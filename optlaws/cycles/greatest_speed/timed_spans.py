@@ -5,7 +5,7 @@ derivative of order nu so falls with the power nu of the scale, whatever the law
 at every lower speed. Of force it takes what it takes at rest in its positions, the static force F_0, and the rest
 divided by the square of the scale. With u = 1/scale² that is (1 - u) F_0 + u F: between two forces that keep the limit,
 where the static one does. With viscous friction, below a motor's curve and of power this follows between rests where
-inertia and static force are constant: docs/theory/cycles.md.
+inertia and static force are constant: docs/how-to/cycle.md.
 """
 
 from __future__ import annotations

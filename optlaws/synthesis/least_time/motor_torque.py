@@ -142,7 +142,7 @@ class MotorTorque(Declared, title="the torque of a move"):
 
     @property
     def grows_possible(self) -> bool:
-        """Whether a law that keeps the limits in a time keeps them in every longer time: docs/theory/least-time.md."""
+        """Whether a law that keeps the limits in a time keeps them in every longer time: docs/how-to/least-time.md."""
         load = constant(read(self.load, ("a",)))
         speedy = bool(self.friction or self.curve or (self.gear is not None and self.gear.friction))
         of_peak = not self.lines or not speedy or load is not None
@@ -153,7 +153,7 @@ class MotorTorque(Declared, title="the torque of a move"):
         """Whether power flows back wherever the motor brakes as much as it may, up to a greatest velocity.
 
         So it is where the motor would take less to brake itself as the load X = 0 runs out. Limits of the torque of
-        power that flows back are then those of the torque itself: docs/theory/least-time.md.
+        power that flows back are then those of the torque itself: docs/how-to/least-time.md.
         """
         if self.gear is None:
             return True

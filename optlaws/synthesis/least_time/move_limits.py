@@ -2,7 +2,7 @@
 
 A motion that gains a velocity within limits of acceleration and jerk takes no less than its phase of segments, of
 greatest jerk, acceleration and velocity; the sum of both phases and of the constant velocity between them is the least
-time (docs/theory/least-time.md). A follower vibrates more often in longer times, which may leave more of it.
+time (docs/how-to/least-time.md). A follower vibrates more often in longer times, which may leave more of it.
 """
 
 from __future__ import annotations

@@ -504,7 +504,7 @@ class MoveObjective(Declared, title="what is least in a move"):
         return RATES[self.name][0] if self.name in RATES else 0
 
     def falls(self, move: TimedMove) -> bool:
-        """Whether a longer time never needs more: docs/theory/least-time.md."""
+        """Whether a longer time never needs more: docs/how-to/least-time.md."""
         if not move.at_rest or move.residual is not None or self.residual is not None:
             return False
         if move.torque is not None and not move.torque.grows_possible:

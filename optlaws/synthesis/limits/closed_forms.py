@@ -1,4 +1,4 @@
-"""Peak constants that no law of an order can beat, in closed form (derivations: docs/theory/limits.md, limit-laws.md).
+"""Peak constants that no law of an order can beat, in closed form (derivations: docs/theory/limits.md).
 
 Each is the infimum over all laws from rest to rest with stroke 1, b(1/2) = B and b <= B, dimensionless (at order 1 with
 free end velocities; J from order 3 on, and C at a given J, with c = 0 at the ends); smooth laws come as near as one

@@ -1,4 +1,4 @@
-"""The laws that attain the limits: constant acceleration, constant power, jerk in steps (docs/theory/limit-laws.md)."""
+"""The laws that attain the limits: constant acceleration, constant power, jerk in steps (docs/theory/limits.md)."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """The time that no law of any degree is faster than, in fractions: what the closed form of segments proves.
 
 A phase that gains a velocity takes no less than its segments, and both phases with the greatest velocity between them
-cover the stroke (docs/theory/least-time.md). A velocity with which they cover less is below the greatest of the fastest
+cover the stroke (docs/how-to/least-time.md). A velocity with which they cover less is below the greatest of the fastest
 motion, whose phases therefore take more: so roots that are rounded down bound its time from below.
 """
 
