@@ -70,7 +70,7 @@ def _about(name: str, file: Path) -> str:
 
 def head_of(file: Path, name: str) -> tuple[str, str]:
     """Signature and docstring of a function; its file is read as text, for importing or parsing it takes far longer."""
-    signature, text, *_ = re.split(rf"^ *def {name}\(", file.read_text("utf-8"), maxsplit=1, flags=re.MULTILINE)[
+    signature, text, *_ = re.split(rf"^ *def _?{name}\(", file.read_text("utf-8"), maxsplit=1, flags=re.MULTILINE)[
         1
     ].split('"""', 2)
     return signature, text

@@ -74,7 +74,6 @@ class Starter:
     tables: Mapping[str, type[Declared]] = field(
         default_factory=dict
     )  #: what its tables are read as, by their headings
-    usual: Answers = field(default_factory=dict)  #: answers of its own unless others are given
 
     def run(self, file: Path) -> str:
         """The command behind `optlaws` that runs a file."""
@@ -86,7 +85,7 @@ class Starter:
         with located(self.kind):
             check_names([f"--{name}" for name in given], [f"--{name}" for name in usual], "option")
         typed: Answers = {name: _read(text, name) for name, text in given.items()}
-        answers = usual | self.usual | typed
+        answers = usual | typed
         answers |= self.derived(answers) | {"run": self.run(file)}
         about = sentences(self.value)
         lines = (_FOLDER / f"{self.kind}.toml").read_text("utf-8").splitlines()
@@ -243,25 +242,20 @@ _KINDS = [
     Starter(
         "drive", "cycle", _of_drive, read_given, CycleProblemFile,
         {"axis.mechanism": Mechanism, "axis.drive": Drive, "axis.drive.motor": Motor},
-        {"stroke": "45 deg", "duration": "0.25 s"},
     ),
     Starter(
         "mechanism", "cycle", _of_mechanism, read_given, CycleProblemFile,
         {"axis.mechanism": SliderCrank, "axis.mechanism.loads": Loads},
-        {"mass": "12 kg", "duration": "0.5 s", "period": "0.7 s"},
     ),
     Starter(
         "fastest", "run", _of_fastest, FastestProblemFile.read, FastestProblemFile,
-        usual={"stroke": "300 mm", "frequency": "13 Hz"},
     ),
     Starter(
         "interlock", "cycle", _of_interlock, read_given, CycleProblemFile, {"interlocks": After},
-        {"stroke": "50 mm", "rise": "60 deg", "dwell": "120 deg", "return": "60 deg", "speed": "60 rpm"},
     ),
     Starter(
         "machine", "run", _of_machine,
         lambda entries, file: MachineLawsProblemFile.read(entries, file).machine.machine(), MachineLawsProblemFile,
-        usual={"stroke": "300 mm", "duration": "0.4 s"},
     ),
     Starter(
         "law", "run", _of_law,

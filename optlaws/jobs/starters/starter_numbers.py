@@ -97,8 +97,17 @@ _TABLES: dict[str, dict[str, tuple[ValueType, str | None, str]]] = {
         "steps": (Whole(1), "11", "How many values of B."),
     },
 }
+#: and what they are of the files of some kinds
+_USUAL = {
+    "drive": {"stroke": "45 deg", "duration": "0.25 s"},
+    "mechanism": {"mass": "12 kg", "duration": "0.5 s", "period": "0.7 s"},
+    "fastest": {"stroke": "300 mm", "frequency": "13 Hz"},
+    "interlock": {"stroke": "50 mm", "rise": "60 deg", "dwell": "120 deg", "return": "60 deg", "speed": "60 rpm"},
+    "machine": {"stroke": "300 mm", "duration": "0.4 s"},
+}
 TYPES = {name: number[0] for table in _TABLES.values() for name, number in table.items()}
-ABOUT = {name: f"{number[2][:-1]} ({kinds})." for kinds, table in _TABLES.items() for name, number in table.items()}
+#: by their names the kinds that have them, and what they say
+ABOUT = {name: (kinds, number[2]) for kinds, table in _TABLES.items() for name, number in table.items()}
 
 
 def numbers_of(kind: str) -> dict[str, str | None]:
@@ -108,4 +117,4 @@ def numbers_of(kind: str) -> dict[str, str | None]:
     {'minimise': 'C', 'degree': '9', 'from': '1.5', 'to': '2', 'steps': '11'}
     """
     tables = (table for kinds, table in _TABLES.items() if kind in kinds.split(", "))
-    return {name: usual for table in tables for name, (_, usual, _) in table.items()}
+    return {name: usual for table in tables for name, (_, usual, _) in table.items()} | _USUAL.get(kind, {})
