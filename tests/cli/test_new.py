@@ -228,3 +228,17 @@ def test_numbers_are_what_the_entries_that_they_are_for_may_be() -> None:
     declared |= {name: motor[name.replace("-", "_")] for name in ("rated-torque", "peak-torque", "greatest-speed")}
     for name, each in {**declared, "spread": vibration["spread"]}.items():
         assert TYPES[name] == each.type, name
+
+
+def test_what_binds_the_overlap_of_two_axes_is_their_interlocks(capsys: Capture) -> None:
+    """Both are touched at once, neither early nor late; and angles of the master alone leave every period possible."""
+    assert exit_code(["new", "interlock", "a.toml"]) == 0
+    assert exit_code(["run", "a.toml"]) == 0
+    page = capsys.readouterr().out
+    for name in ("leaves", "comes back"):
+        assert re.search(rf"\| bound by +\| {name} ", page)
+        assert re.search(rf"\| {name} +\| clear +\| 0 .*\| 0 +\|", page)
+    text = Path("a.toml").read_text("utf-8")
+    Path("b.toml").write_text(re.sub(r"(?m)^overlap = .*", 'overlap = { goal = "period" }', text), "utf-8")
+    assert exit_code(["run", "b.toml"]) == 2
+    assert "nothing bounds the period" in capsys.readouterr().err

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import floor, hypot, sqrt
+from math import floor, hypot, remainder, sqrt
 from typing import Any, ClassVar
 
 import numpy as np
@@ -299,8 +299,11 @@ class After(Interlock, kind="after", title="an interlock after"):
         if not known:
             raise InputError(f"interlock {self.label}: {self.axis} never passes {self.position}{self._way}")
         bound, clearance, time = min(known)
-        way = 1.0 if clearance >= 0.0 else -1.0
-        early = [way * ((way * (time - at)) % second.cycle.duration) for at in self._entries(second, given[1])]
+        way, period = 1.0 if clearance >= 0.0 else -1.0, second.cycle.duration
+        early = [way * ((way * (time - at)) % period) for at in self._entries(second, given[1])]
+        if abs(clearance) <= CYCLE_ROUNDING * second.stroke:
+            # where both pass at once either may be first by a rounding
+            early = [remainder(time - at, period) for at in self._entries(second, given[1])]
         return clearance, bound, time, second.stroke, *sorted(early, key=abs)[:1]
 
 

@@ -17,7 +17,7 @@ from optlaws.cycles.specified import problem_file
 from optlaws.echo import keywords_of, shortened
 from optlaws.entries.declared import Declared, declared, entry, same
 from optlaws.entries.value_types import Choice, Listed, Number, ReadBy, Text
-from optlaws.errors import InfeasibleProblem, InputError, located, needed
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located, needed
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws.law import AxesExportOptions
@@ -498,6 +498,34 @@ class Overlap(AxesAnswers, Declared, title="axes that overlap"):
         """The objective before over the objective after: the gain in speed, or the reduction of the acceleration."""
         return (self.given.duration if self.goal == "period" else 1.0) / self.objective
 
+    @property
+    def dwells(self) -> tuple[str, ...]:
+        """The dwells among what is `binding`: they last as long as they were given, or their `least`."""
+        from optlaws.cycles.axes.overlapping import DWELL
+
+        return tuple(name for name in self.binding if name.startswith(DWELL))
+
+    @kept_property
+    def without_dwells(self) -> float | None:
+        """The least period in seconds if the binding `dwells` could take no time; None without such, or unknown.
+
+        Examples
+        --------
+        >>> from optlaws import Dwell, Return, Rise
+        >>> law = {"law": "cycloidal"}
+        >>> moves = [Rise("0.1 m", "0.2 s", **law), Dwell("0.4 s"), Return("0.1 m", "0.2 s", **law)]
+        >>> best = Axes({"slide": moves}, period="0.8 s").fastest()
+        >>> best.dwells, round(best.objective, 6), round(best.without_dwells, 6)
+        (('dwell segment 2 of slide',), 0.8, 0.4)
+        """
+        if self.goal != "period" or not self.dwells:
+            return None
+        try:
+            of_laws, unknowns, _ = self.given.instants.without_dwells(self.dwells).shortest()
+        except (InfeasibleProblem, InputError, SolverFailure):
+            return None
+        return of_laws.unit * float(unknowns[-2])
+
     def summary(self) -> Summary:
         """Status, objective and bound, the gain, and what leaves no room."""
         what, unit, better = "greatest acceleration, as a share of the given one", "", "times lower"
@@ -509,7 +537,11 @@ class Overlap(AxesAnswers, Declared, title="axes that overlap"):
             "gain": (self.gain, better),
         }
         rows = [*(Row(name, *value) for name, value in values.items()), best_possible_row(None, self.objective)]
-        return Summary([Row("status", self.status.value), *rows, *(Row("bound by", name) for name in self.binding)])
+        if self.without_dwells is not None:
+            may = 'of dwells that may be shorter give least = "0 s"'
+            rows.append(Row("least period without these dwells", self.without_dwells, unit, note=may))
+        status = Row("status", self.status.value, note="with the dwells that bind as given" if self.dwells else "")
+        return Summary([status, *rows, *(Row("bound by", name) for name in self.binding)])
 
     def report(self) -> Report:
         """What is proven of the overlap, and the report of its axes."""

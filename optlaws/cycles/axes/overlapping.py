@@ -50,6 +50,8 @@ _TIGHT_INSTANT = 1e-7  # of a period: what leaves no more binds
 #: how the moves of an axis find their laws and times
 Way = Literal["fastest", "gentlest", "kept"]
 _NOTHING = Extent(0.0, 0.0)
+#: how names of what binds begin where it is a dwell
+DWELL = "dwell "
 
 _NODES = 4000
 _LONGEST = 10.0
@@ -172,7 +174,7 @@ def planned(name: str, cycle: Cycle, way: Way, times: Sequence[float] | None) ->
                 # as given or allowed, of two the first; nothing where none is
                 least: Any = getattr(given, "least", None) or given.duration or "0 s"
                 lasts = extent(least[0] if isinstance(least, tuple) else least)
-                label = f"dwell {given.name or f'segment {stretch.number}'} of {name}"
+                label = f"{DWELL}{given.name or f'segment {stretch.number}'} of {name}"
                 segments.append(replace(segment, least=lasts, binds=label if lasts != _NOTHING else ""))
                 continue
             segment = _of_move(segment, i, cycle, way, search, times)
@@ -500,7 +502,20 @@ class Overlapping:
     def shortest(self) -> tuple[Overlapping, Array, float]:
         """The instants of least period, longer by what programs are solved to, so that limits are met; its bound."""
         unknowns, bound = self.best()
+        if unknowns[-2] <= _LP_FEASIBILITY:
+            raise InputError(
+                "nothing bounds the period: every move takes an angle of the master, and so ever less time: give axes "
+                'limits, such as limits = { acceleration = "20 m/s^2" }, or moves durations in s'
+            )
         return self, unknowns * (1.0 + _OVERLAP_GAP), bound * self.unit
+
+    def without_dwells(self, names: Sequence[str]) -> Overlapping:
+        """The problem in which dwells, by what their least durations are named, may take no time."""
+        plans = [
+            replace(plan, segments=[replace(s, least=_NOTHING) if s.binds in names else s for s in plan.segments])
+            for plan in self.plans
+        ]
+        return replace(self, plans=plans)
 
     def durations(self, unknowns: Array) -> dict[str, list[float]]:
         """The durations of the segments of each axis in seconds."""
