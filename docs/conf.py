@@ -50,7 +50,7 @@ logging.getLogger("sphinx.sphinx.directives.other").addFilter(
 )
 
 myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
-myst_heading_anchors = 3
+myst_heading_anchors = 4
 
 autodoc_member_order = "bysource"
 toc_object_entries_show_parents = "hide"

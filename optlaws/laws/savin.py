@@ -1,4 +1,4 @@
-"""Savin's families of laws: members by alpha or by a peak constant, peaks in closed form (docs/theory/savin.md).
+"""Savin's families of laws: members by alpha or by a peak constant, peaks in closed form (docs/papers/savin.md).
 
 With p = k (1 - k), y = 1 + alpha (M - p) and q = 1/4 - p the laws are c = H p^u sqrt(q) y and
 b = H/2 p^(u+1) F with F = (1 + alpha M)/(u+1) - alpha p/(u+2).
