@@ -66,14 +66,13 @@ QUESTIONS: dict[str, tuple[type[msgspec.Struct], Callable[[Any], dict[str, Any]]
     "save": (downloads.FileRequest, downloads.answer),
     "open": (start.OpenRequest, start.opened),
 }
-#: by a view's name in the page: the study that it shows where none was given
+#: by a view's name in the page what it shows where nothing was given: a machine, or a part of its own; and moves
 EXAMPLES: dict[str, Callable[[], dict[str, Any]]] = {
-    "advice": advice_view.example,
     "axes": axes_view.example,
     "cam": cam_view.example,
     "cycle": cycle_view.example,
-    "fastest": fastest_view.example,
     "machine": machine_view.example,
+    "moves": fastest_view.example,
     "old": old_cam_view.example,
 }
 OK, UNREADABLE, FAULT = 200, 422, 500

@@ -19,7 +19,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
 
-from optlaws import Drive, __version__, catalogue
+from optlaws import Drive, catalogue
 from optlaws.explorer.answering import EXAMPLES, QUESTIONS, message
 from optlaws.explorer.views import cam_view, cycle_view, machine_view
 from optlaws.explorer.workers import MOST, SLICE, USUAL, Workers
@@ -57,7 +57,6 @@ def application(start: dict[str, Any], workers: Workers | None = None) -> Starle
         "mechanisms": machine_view.kinds(),
         "drive": Drive.form()["entries"],
         "formats": [{key: getattr(form, key) for key in _FORM} for _, form in sorted(FORMATS.items())],
-        "version": __version__,
     }
     first = msgspec.json.encode({"state": start, **known})
     answering = Workers() if workers is None else workers

@@ -43,11 +43,16 @@ ViewFiles = tuple[Mapping[str, Callable[[Any], File]], Callable[[Any], Any]]
 
 
 class FileRequest(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A file of a kind, of the request of a view; for a controller, of a law with the machine that it moves."""
+    """A file of a kind, of the request of a view; of a report the name and the notes of the document.
+
+    For a controller, a law has the machine that it moves.
+    """
 
     kind: Text
     view: Text
     request: msgspec.Raw
+    name: Annotated[str, msgspec.Meta(max_length=80)] = ""
+    notes: Annotated[str, msgspec.Meta(max_length=20_000)] = ""
     stroke: Text = "35 mm"
     time: Text = "0.1 s"
     master: Text = "120 deg"
@@ -63,7 +68,8 @@ def answer(question: FileRequest) -> dict[str, str]:
         from optlaws.plots.report import printable_page  # matplotlib costs a start that other questions do without
 
         of = titled(request.law) if isinstance(request, LawsRequest) else request.study.get("title", "A motion")
-        name, text = "report.html", printable_page(of, result(request).report())
+        name = f"{_stem(question.name or of)}.html"
+        text = printable_page(question.name or of, result(request).report(), question.notes)
     else:
         name, text = kinds[question.kind](request)
     return {"name": name, "type": guess_type(name)[0] or "text/plain", "text": text}
@@ -225,7 +231,6 @@ _CYCLE: dict[str, Callable[[Any], File]] = {
 }
 _FASTEST: dict[str, Callable[[Any], File]] = {
     "problem": _study("fastest.toml"),
-    "law": lambda request: _json("fastest", **fastest_view.fastest_of(request).to_dict()),
     "proof": lambda request: _json("fastest", **fastest_view.proof_of(request)),
 }
 _OLD: dict[str, Callable[[Any], File]] = {
@@ -261,10 +266,11 @@ VIEWS: dict[str, ViewFiles] = {
     "old": (_OLD, old_cam_view.cycle),
 }
 #: by the name of a view what a controller may run: of axes the one on display
-MOTIONS: dict[str, Callable[[Any], Any]] = {
-    "laws": lambda request: law_of(request.law),
-    **dict.fromkeys(("cycle", "machine", "axes"), cycle_view.cycle),
-    "old": old_cam_view.cycle,
+MOTIONS: dict[str, Callable[[Any], Callable[..., Any]]] = {
+    "laws": lambda request: law_of(request.law).export,
+    **dict.fromkeys(("cycle", "machine", "axes"), lambda request: cycle_view.cycle(request).export),
+    "fastest": fastest_view.export_of,
+    "old": lambda request: old_cam_view.cycle(request).export,
 }
 
 
@@ -276,7 +282,7 @@ def exported(question: FileRequest) -> dict[str, Any]:
     given: dict[str, Any] = {"points": question.points, "counts": question.counts}
     if isinstance(request, LawsRequest):
         given |= {"stroke": question.stroke, "duration": question.time, "master": question.master or None}
-    export = MOTIONS[question.view](request).export(question.kind, **given)
+    export = MOTIONS[question.view](request)(question.kind, **given)
     written = export.written
     return {
         "name": f"Cam{export.format.extension}",

@@ -114,7 +114,7 @@ def _of_problem_file(data: dict[str, Any], name: str) -> dict[str, Any]:
             axes = CycleProblemFile.from_dict(data).axis
         driven = [i for i, axis in enumerate(axes) if axis.mechanism is not None]
         view = next((view for entry, view in _CYCLES.items() if data.get(entry)), "machine" if driven else "cycle")
-        return {"view": view, view: data} | ({"axis": driven[0]} if view == "machine" else {})
+        return {"view": view, "machine": data} | ({"axis": driven[0]} if view == "machine" else {})
     if job in _SHOWN:
         return {"view": job, job: data}
     with located(name):

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from optlaws import __version__
 from optlaws.plots.style import BLUES, GREY, WARM, one_below_the_other, rendered
 from optlaws.shown.showing import cell, table
 
@@ -85,13 +86,16 @@ def set_range(axes: Axes, panels: Sequence[Panel]) -> None:
     axes.set(xlabel=panels[0].across, xlim=(per * least, per * longest))
 
 
-def printable_page(title: object, report: Report) -> str:
+def printable_page(title: object, report: Report, notes: str = "") -> str:
     """A report as a file of HTML by itself, to be read anywhere and printed: facts, tables, pictures of its panels."""
     tables = [table(*each) for each in report.tables]
     grouped = groupby(report.panels, lambda panel: panel.across)
     pictures = [_picture(list(panels), report.segments) for _, panels in grouped]
     head = f'<meta charset="utf-8"><title>{cell(title)}</title><style>{_PRINTED}</style>'
-    body = "".join([f"<h1>{cell(title)}</h1>", report.facts._repr_html_(), *tables, *pictures])
+    said = [f"<p>{cell(line)}</p>" for line in notes.splitlines()]
+    body = "".join(
+        [f"<h1>{cell(title)}</h1><p>optlaws {__version__}</p>", *said, report.facts._repr_html_(), *tables, *pictures]
+    )
     return f'<!doctype html>\n<html lang="en"><head>{head}</head><body>{body}</body></html>\n'
 
 

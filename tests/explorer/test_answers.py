@@ -188,7 +188,7 @@ def test_a_peak_without_bound_is_said_to_be() -> None:
 @pytest.mark.parametrize("file", ["cycle_press.toml", "cycle_motor.toml"])
 def test_problem_files_are_shown(file: str) -> None:
     found = start(str(ROOT / "problems" / file))
-    assert "trust" in cycle_view.answer(CycleRequest(study=found["cycle"]))
+    assert "trust" in cycle_view.answer(CycleRequest(study=found["machine"]))
 
 
 def test_a_solution_is_shown_as_its_problem_and_a_law_as_itself(tmp_path: Path) -> None:
@@ -219,7 +219,7 @@ def test_results_are_opened_as_what_they_are_of(file: str, view: str) -> None:
         assert all(problem_of(law(entries)) for entries in found["laws"])
         return
     views = {"cam": cam_view, "cycle": cycle_view, "machine": machine_view, "axes": axes_view}
-    answer = views[view].answer(CycleRequest(study=found[view], axis=found.get("axis", 0)))
+    answer = views[view].answer(CycleRequest(study=part_of(found), axis=found.get("axis", 0)))
     assert "refused" not in answer
     msgspec.json.encode(answer, enc_hook=str)
 
@@ -229,7 +229,7 @@ def test_a_stored_cycle_plan_and_machine_are_opened(tmp_path: Path) -> None:
     for value in (cycle, cycle.solve(), Axes({"slide": cycle})):
         (tmp_path / "stored.json").write_text(value.to_json(), "utf-8")
         found = start(str(tmp_path / "stored.json"))
-        assert [each["kind"] for each in found["cycle"]["axis"][0]["segment"]] == ["rise", "return"]
+        assert [each["kind"] for each in found["machine"]["axis"][0]["segment"]] == ["rise", "return"]
 
 
 @pytest.mark.parametrize(
@@ -251,8 +251,8 @@ def test_a_problem_file_with_a_view_is_opened_and_written(file: Path) -> None:
         return
     state = opened_file(OpenRequest(name=file.name, text=text))["state"]
     view = state["view"]
-    assert state[view] == data
-    assert tomllib.loads(file_of("problem", view, study=state[view])["text"]) == data
+    assert part_of(state) == data
+    assert tomllib.loads(file_of("problem", view, study=data)["text"]) == data
 
 
 def test_a_file_that_is_opened_is_refused_in_words() -> None:
@@ -488,7 +488,7 @@ def test_a_cycle_that_cannot_keep_its_limit_says_how_far_to_go_back() -> None:
 
 @pytest.mark.parametrize("file", ["cycle_press", "cycle_flying_shear", "cycle_savin_design"])
 def test_python_and_files_make_the_same_cycle(file: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    study = start(str(ROOT / "problems" / f"{file}.toml"))["cycle"]
+    study = start(str(ROOT / "problems" / f"{file}.toml"))["machine"]
     assert tomllib.loads(file_of("problem", "cycle", study=study)["text"]) == study
     made = run(file_of("python", "cycle", study=study)["text"], tmp_path, monkeypatch)["cycle"]
     assert made.peak(2) == cycle_view.cycle(CycleRequest(study=study)).peak(2)
@@ -502,10 +502,21 @@ def test_the_page_offers_files_that_there_are_of_its_view(view: str) -> None:
     assert {"problem"} <= offered or not offered
 
 
+def part_of(state: dict[str, Any]) -> dict[str, Any]:
+    """The machine of a state, the moves, or the part that has the name of its view."""
+    found: dict[str, Any] = state.get(state["view"], state.get("machine"))
+    return found
+
+
+def example_of(view: str) -> dict[str, Any]:
+    """What a view shows at first."""
+    return EXAMPLES.get({"fastest": "moves"}.get(view, view), cycle_view.example)()
+
+
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("view", downloads.VIEWS)
 def test_the_report_of_a_view_is_printed_with_its_facts_and_curves(view: str) -> None:
-    study = cycle_view.example() if view == "advice" else EXAMPLES.get(view, dict)()
+    study = example_of(view)
     asked: dict[str, Any] = {"laws": [OPTIMAL]} if view == "laws" else {"study": study}
     file = file_of("report", view, **asked, **({"points": 2} if view == "advice" else {}))
     assert (file["name"], file["type"]) == ("report.html", "text/html")
@@ -526,7 +537,7 @@ def test_the_report_of_a_view_is_printed_with_its_facts_and_curves(view: str) ->
 @pytest.mark.parametrize("view", ["cycle", "axes", "machine", "cam", "fastest", "old"])
 def test_every_kind_of_file_is_made_of_the_first_study_of_its_view(view: str) -> None:
     for kind in downloads.VIEWS[view][0]:
-        file = file_of(kind, view, study=EXAMPLES[view]())
+        file = file_of(kind, view, study=example_of(view))
         assert file["text"]
         assert Path(file["name"]).suffix
 
@@ -540,7 +551,7 @@ def test_a_file_that_there_is_not_is_refused_with_the_nearest(kind: str, view: s
 def test_files_of_a_cycle_keep_its_load_and_have_no_folder_in_their_names(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    study = start(str(ROOT / "problems" / "cycle_elastic_load.toml"))["cycle"]
+    study = start(str(ROOT / "problems" / "cycle_elastic_load.toml"))["machine"]
     asked = CycleRequest(study=study)
     text = file_of("python", "cycle", study=study)["text"]
     made = run(text, tmp_path, monkeypatch)["cycle"]

@@ -106,9 +106,9 @@ def test_moves_are_put_together_as_the_library_does(served: Server) -> None:
 def test_axes_open_and_save_as_a_problem_file(served: Server) -> None:
     found = start(str(FILE))
     assert found["view"] == "axes"
-    asked = {"kind": "problem", "view": "axes", "request": {"study": found["axes"]}}
+    asked = {"kind": "problem", "view": "axes", "request": {"study": found["machine"]}}
     assert tomllib.loads(served.ask("save", asked)["text"]) == tomllib.loads(FILE.read_text("utf-8"))
-    shown = axes_of(found["axes"])
+    shown = axes_of(found["machine"])
     made: dict[str, Any] = {}
     text = served.ask("save", asked | {"kind": "python"})["text"]
     exec("\n".join(text.splitlines()[:-1]), made)  # noqa: S102 - all but its picture
@@ -155,7 +155,7 @@ def drag(page: Page, key: str, by: float) -> None:
 
 def test_bars_are_dragged_until_an_interlock_breaks(page: Page, served: Server) -> None:
     go(page, f"http://{served.host}/")
-    page.get_by_role("tab", name="Axes").click()
+    page.get_by_role("tab", name="Timing").click()
     settle(page)
     bar = page.locator('[data-key="bar 1 0"]')
     assert bar.get_attribute("aria-valuetext") == "from 50 deg to 105 deg"
@@ -199,7 +199,7 @@ def test_the_corner_of_a_forbidden_region_is_moved(page: Page, served: Server) -
 
 def test_axes_are_added_renamed_and_removed_with_what_names_them(page: Page, served: Server) -> None:
     go(page, f"http://{served.host}/")
-    page.get_by_role("tab", name="Axes").click()
+    page.get_by_role("tab", name="Timing").click()
     settle(page)
     assert "die 0 mm" in page.locator("#axes-reading").inner_text()
     page.get_by_label("put the moves together for").select_option("acceleration")

@@ -69,14 +69,14 @@ def test_the_curve_is_drawn_once_by_the_limit_of_which_most_is_taken(served: Ser
 def test_a_cycle_stops_at_its_greatest_speed(served: Server) -> None:
     found = start(str(PROBLEMS / "cycle_fastest.toml"))
     assert found["view"] == "fastest"
-    answer = served.ask("fastest", {"study": found["fastest"]})
+    answer = served.ask("fastest", {"study": found["machine"]})
     # the least period within these limits, as the page of results says it
     assert answer["least"]["text"] == "384.3548"
     assert written(answer["trust"]["facts"][0]) == "greatest speed 156.1058 rpm"
-    slower = served.ask("fastest", {"study": found["fastest"], "time": 0.45})
+    slower = served.ask("fastest", {"study": found["machine"], "time": 0.45})
     assert slower["time"] == 0.45
     assert slower["trust"]["word"] == "proven optimal"
-    values = [value for _, value, _ in served.ask("fastest-front", {"study": found["fastest"]})["points"]]
+    values = [value for _, value, _ in served.ask("fastest-front", {"study": found["machine"]})["points"]]
     assert values == sorted(values, reverse=True)
 
 
@@ -91,7 +91,7 @@ def test_no_time_below_the_least_is_given_and_limits_that_nothing_keeps_say_why(
 
 
 def test_a_time_is_given_by_slider_picture_and_number_and_stops_at_the_least(page: Page, served: Server) -> None:
-    go(page, served.link(view="fastest"))
+    go(page, served.link(view="fastest", fastest=STUDY))
     least = served.ask("fastest", {"study": STUDY})["least"]["text"]
     time = page.get_by_label("Time of the motion, ms")
     assert time.input_value() == least
@@ -127,7 +127,7 @@ def test_a_time_is_given_by_slider_picture_and_number_and_stops_at_the_least(pag
     saved = tomllib.loads(saves(page, "problem"))
     assert saved["move"][0]["limits"]["jerk"] == "1200 m/s^3"
     assert saved["move"][0]["front"]["minimise"] == ["jerk", "residual acceleration"]
-    assert verify(json.loads(saves(page, "law"))).proven
+    assert verify(json.loads(saves(page, "proof"))).proven
 
 
 @pytest.mark.parametrize("unit", [1e-12, 1e9])

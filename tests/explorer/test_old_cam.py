@@ -147,7 +147,7 @@ def bettered(page: Page) -> None:
 
 def test_a_dropped_table_is_shown_and_bettered_within_a_dragged_band(page: Page, served: Server, turn: Path) -> None:
     go(page, f"http://{served.host}/")
-    page.get_by_role("tab", name="Old cam").click()
+    page.get_by_role("tab", name="Old table").click()
     page.get_by_label("Table of an old cam").wait_for()
     page.get_by_label("Table of an old cam").set_input_files(turn)
     bettered(page)
@@ -179,7 +179,7 @@ def test_a_dropped_table_is_shown_and_bettered_within_a_dragged_band(page: Page,
 def test_the_frame_of_a_table_is_said_in_fields(page: Page, served: Server) -> None:
     """The example once more in a turn of 720 deg, then its first 41 rows, of a rise, as one lobe of three."""
     go(page, f"http://{served.host}/")
-    page.get_by_role("tab", name="Old cam").click()
+    page.get_by_role("tab", name="Old table").click()
     fields = {
         name: page.get_by_role("textbox", name=name, exact=True) for name in ("turn", "advance", "rows that count")
     }

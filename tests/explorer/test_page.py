@@ -231,7 +231,7 @@ def test_views_and_units_chosen_while_the_server_is_away_are_shown_when_it_is_ba
 
     go(page, f"http://{served.host}/")
     page.context.set_offline(True)
-    page.get_by_role("tab", name="Cycle").click()
+    page.get_by_role("tab", name="Motion").click()
     back()
     page.locator("#motion .title", has_text="mm/s").wait_for()
     settle(page)
@@ -256,7 +256,7 @@ def test_what_is_saved_is_what_is_seen(page: Page, served: Server) -> None:
 
 def test_a_cycle_is_shown_changed_and_refused(page: Page, served: Server) -> None:
     go(page, f"http://{served.host}/")
-    page.get_by_role("tab", name="Cycle").click()
+    page.get_by_role("tab", name="Motion").click()
     settle(page)
     cell = page.locator("#segments tbody tr >> nth=0 >> td >> nth=4")
     assert cell.inner_text() == "616"
@@ -474,7 +474,7 @@ def test_a_click_on_the_law_itself_changes_nothing(page: Page, served: Server) -
 
 def test_kinds_and_times_keep_what_was_given(page: Page, served: Server) -> None:
     go(page, f"http://{served.host}/")
-    page.get_by_role("tab", name="Cycle").click()
+    page.get_by_role("tab", name="Motion").click()
     settle(page)
     page.get_by_label("timing", exact=True).select_option("period")
     assert page.get_by_label("timing value").input_value() == "0.3 s"

@@ -33,7 +33,7 @@ function earlier() {
 
 /** What a document is called: its name, or what it shows. */
 export function titled(state) {
-  const file = state[state.view]?.title ?? state.laws[state.active]?.title ?? state.laws[state.active]?.name;
+  const file = state[VIEWS[state.view]?.part]?.title ?? state.laws[state.active]?.title ?? state.laws[state.active]?.name;
   return state.name || file || VIEWS[state.view]?.title || "Study";
 }
 

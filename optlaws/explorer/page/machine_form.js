@@ -1,4 +1,4 @@
-// The machine as fields: its kind, its lengths, bodies and loads, its gear and its motor.
+// The mechanism of an axis and its drive as fields: its kind, its lengths, bodies and loads, its gear and its motor.
 
 import { Form } from "./form.js";
 import { group, slider } from "./fields.js";
@@ -14,6 +14,13 @@ export function beside(study, index) {
   return study.axis.filter((one) => told([one.mechanism, one.drive]) === own);
 }
 
+/** Change the mechanism and the drive of all axes of the machine that an axis has. */
+export function changeAll(study, what, alter) {
+  study.change(what, ({ machine, axis }) => {
+    for (const one of beside(machine, axis)) alter(one, machine);
+  });
+}
+
 /** A slider of a ratio steps by equal shares. */
 const logarithm = (value) => Math.round(1000 * Math.log10(value)) / 1000;
 
@@ -22,24 +29,21 @@ export class MachineForm {
   #study;
   #kinds;
   #driving;
-  #part;
   #shape = "";
   #shows = [];
   #fields;
 
-  /** `part(state)` is the study that holds the axes; `kinds` are mechanisms with their examples, `drive` its entries. */
-  constructor(root, study, { mechanisms, drive }, part) {
+  /** `kinds` are mechanisms with their examples, `drive` its entries. */
+  constructor(root, study, { mechanisms, drive }) {
     this.#root = root;
     this.#study = study;
     this.#kinds = mechanisms;
     this.#driving = drive;
-    this.#part = part;
-    this.#fields = new Form((what, alter) => this.change(what, alter), () => study.rest());
+    this.#fields = new Form((what, alter) => changeAll(study, what, alter), () => study.rest());
   }
 
   show(state) {
-    const study = this.#part(state);
-    const axis = study.axis[state.axis] ?? study.axis[0];
+    const axis = state.machine.axis[state.axis] ?? state.machine.axis[0];
     const kind = axis.mechanism?.kind ?? "";
     const shape = told([kind, Boolean(axis.drive?.motor)]);
     if (shape !== this.#shape) this.#build(kind, axis);
@@ -48,21 +52,13 @@ export class MachineForm {
     this.#fields.show(axis);
   }
 
-  /** Change the mechanism and the drive of all axes of the machine. */
-  change(what, alter) {
-    this.#study.change(what, (state) => {
-      const study = this.#part(state);
-      for (const axis of beside(study, state.axis)) alter(axis, study);
-    });
-  }
-
   #build(kind, axis) {
     this.#shows = [];
     this.#fields.clear();
     const entries = (this.#kinds[kind]?.fields ?? []).filter(({ name }) => name !== "segment");
     const choose = html("select", { "aria-label": "kind of mechanism" }, ...(kind in this.#kinds ? [] : [html("option", { value: "", text: "none" })]), ...Object.keys(this.#kinds).map((value) => html("option", { value, text: value })));
     choose.value = kind;
-    choose.addEventListener("change", () => this.change("mechanism", (one, study) => this.#take(one, study, choose.value)));
+    choose.addEventListener("change", () => changeAll(this.#study, "mechanism", (one, study) => this.#take(one, study, choose.value)));
     renew(this.#root, group("Mechanism", choose, ...this.#fields.fields(entries, ["mechanism"], [])), ...this.#drive(Boolean(axis.drive?.motor)));
   }
 
@@ -83,7 +79,7 @@ export class MachineForm {
   #drive(motor) {
     const toggle = html("select", { "aria-label": "what drives" }, html("option", { value: "", text: "a torque at the input" }), html("option", { value: "motor", text: "a motor with a gear" }));
     toggle.value = motor ? "motor" : "";
-    toggle.addEventListener("change", () => this.change("drive", (one) => {
+    toggle.addEventListener("change", () => changeAll(this.#study, "drive", (one) => {
       const usual = (name) => structuredClone(this.#driving.find((entry) => entry.name === name).example);
       if (toggle.value) one.drive = { motor: usual("motor"), ratio: usual("ratio") };
       else delete one.drive;
@@ -92,11 +88,11 @@ export class MachineForm {
     const [low, high] = RATIOS.map(logarithm);
     const ratio = slider({
       name: "ratio", title: "Ratio of the gear, by its logarithm", low, high, step: 0.001, most: null,
-      changed: (value) => this.change("ratio", (one) => (one.drive.ratio = Number((10 ** value).toPrecision(4)))), rested: () => this.#study.rest(),
+      changed: (value) => changeAll(this.#study, "ratio", (one) => (one.drive.ratio = Number((10 ** value).toPrecision(4)))), rested: () => this.#study.rest(),
     });
     const number = ratio.element.lastElementChild;
     const exact = html("input", { type: "number", min: 0, step: "any", "aria-label": "Ratio of the gear" });
-    exact.addEventListener("input", () => Number(exact.value) > 0 && this.change("ratio", (one) => (one.drive.ratio = Number(exact.value))));
+    exact.addEventListener("input", () => Number(exact.value) > 0 && changeAll(this.#study, "ratio", (one) => (one.drive.ratio = Number(exact.value))));
     exact.addEventListener("change", () => this.#study.rest());
     number.replaceWith(exact);
     this.#shows.push(({ drive }) => {

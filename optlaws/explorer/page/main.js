@@ -3,9 +3,9 @@
 import { Details, begun, keep } from "./document.js";
 import { Exporting } from "./exporting.js";
 import { tabs } from "./fields.js";
+import { MachineForms } from "./machine_forms.js";
 import { during, observe, reached } from "./latest.js";
 import { Opening } from "./opening.js";
-import { reporting } from "./report.js";
 import { fileOf } from "./saving.js";
 import { Study, read } from "./state.js";
 import { html } from "./svg.js";
@@ -73,6 +73,9 @@ function work({ lost, slow, late }) {
   document.getElementById("work").classList.toggle("lost", lost);
 }
 
+/** Machines that a first visit can begin with, by the tabs that show them. */
+const MACHINES = { cycle: "a servo slide", machine: "a crank press", axes: "a table and a die" };
+
 /** When something happened last. */
 function marked(name) {
   performance.clearMarks(name);
@@ -97,7 +100,7 @@ function rootOf(name) {
   return made;
 }
 
-async function begin() {
+async function open() {
   const { view } = read(location.hash);
   if (Object.hasOwn(VIEWS, view)) VIEWS[view].load().catch(() => {}); // on its way while the start is
   const start = await fetch("api/start").then((response) => response.json());
@@ -106,11 +109,16 @@ async function begin() {
   const first = begun(location.hash, state);
   const views = {};
   const study = new Study(first, render, kept, examples);
+  /** A part of the study that is not there yet begins with an example for the view that shows it. */
+  const begin = (state, view) => {
+    const { part } = VIEWS[view];
+    if (part) state[part] ??= structuredClone(examples[view] ?? examples.cycle);
+  };
   const named = (now) => (Object.hasOwn(VIEWS, now.view) ? now.view : "laws");
   const titles = Object.fromEntries(Object.entries(VIEWS).map(([name, { title }]) => [name, title]));
   const choose = tabs(document.getElementById("views"), titles, (key) => study.change("view", (next) => {
     next.view = key;
-    if (key in examples) next[key] ??= structuredClone(examples[key]);
+    begin(next, key);
   }));
   const shown = () => views[named(study.state)];
   const exporting = new Exporting(study, formats, (now) => (shown()?.moves ? { view: named(now), request: shown().request(now) } : null));
@@ -124,6 +132,7 @@ async function begin() {
   };
   const opening = new Opening(opened, notice, shown, (name, text) => during(show(name, text)).catch((error) => notice(error.message)));
   const details = new Details(study);
+  const forms = new MachineForms(study, start);
   const tools = new Tools(document.getElementById("tools"), study, notice, { exporting, opening, details, shown });
 
   /** A view is loaded when it is first shown; one that fails to load is loaded when it is next shown. */
@@ -144,11 +153,16 @@ async function begin() {
     // a law that is taken to another view takes the reader with it
     if (document.activeElement.closest(".view[hidden]")) document.querySelector(`#views [data-key=${name}]`).focus({ preventScroll: true });
     const view = views[name];
+    if (VIEWS[name].part === "machine") {
+      begin(now, name);
+      forms.show(now, name, rootOf(name), view?.form);
+    }
     if (view) {
-      if (name in examples) now[name] ??= structuredClone(examples[name]);
+      begin(now, name);
       view.show(now);
       exporting.show(now);
     } else if (view === undefined) during(load(name)).catch((error) => notice(error.message));
+    document.getElementById("first").hidden = study.canUndo || location.hash.length > 1;
     tools.show(study, Boolean(view?.moves));
     details.show(now);
   }
@@ -168,10 +182,12 @@ async function begin() {
     await show(name, text);
   }
 
+  for (const [view, text] of Object.entries(MACHINES)) {
+    document.getElementById("first").append(html("button", { type: "button", text, onclick: () => study.change("begin", (next) => Object.assign(next, { view, machine: structuredClone(examples[view]) })) }));
+  }
   observe(work);
   addEventListener("prove", () => during(prove()).catch((error) => notice(error.message)));
   setTimeout(() => VIEWS.proof.load().catch(() => {}), LATER);
-  reporting(study, start.version);
   document.querySelector(".skip").addEventListener("click", (event) => {
     event.preventDefault();
     const shown = [".handle", ".panels", "[tabindex]"].flatMap((name) => [...document.querySelectorAll(`.view:not([hidden]) ${name}`)]);
@@ -183,4 +199,4 @@ async function begin() {
   render(first);
 }
 
-begin().catch((error) => notice(error instanceof TypeError ? "The server does not answer: start `optlaws explore` again; the address keeps the study." : error.message));
+open().catch((error) => notice(error instanceof TypeError ? "The server does not answer: start `optlaws explore` again; the address keeps the study." : error.message));

@@ -12,15 +12,13 @@ export class Programme {
   #study;
   #held;
   #entries;
-  #limits;
   #shape = "";
   #shows = [];
 
   /** `held(state)` is what holds speed and period; its axes, or its motion, hold the segments. `entries` are those that
-      a cycle and its segments declare; of a machine's motion that turns with `turns`. */
-  constructor(root, study, held, entries, { turns = false } = {}) {
+      a cycle and its segments declare. */
+  constructor(root, study, held, entries) {
     this.#entries = entries;
-    this.#limits = entries.limits[turns ? "machine" : "motion"];
     this.#root = root;
     this.#study = study;
     this.#held = held;
@@ -31,8 +29,8 @@ export class Programme {
     const index = state.axis;
     const axis = axisOf(cycle, index);
     if (!axis) return;
-    const shape = JSON.stringify([index, cycle.axis?.map((one) => one.name), (axis.segment ?? []).map((one) => one.kind), "period" in cycle]);
-    if (shape !== this.#shape) this.#build(cycle, axis, index);
+    const shape = JSON.stringify([index, cycle.axis?.map((one) => one.name), (axis.segment ?? []).map((one) => one.kind), "period" in cycle, "mechanism" in axis]);
+    if (shape !== this.#shape) this.#build(cycle, axis);
     this.#shape = shape;
     for (const show of this.#shows) show(cycle, axis);
   }
@@ -44,7 +42,7 @@ export class Programme {
     });
   }
 
-  #build(cycle, axis, index) {
+  #build(cycle, axis) {
     this.#shows = [];
     const timing = "period" in cycle ? "period" : "speed";
     const head = [
@@ -57,8 +55,7 @@ export class Programme {
       this.#text("timing value", { name: timing, placeholder: timing === "speed" ? "200 rpm" : "0.3 s" }, (_axis, study) => study[timing], (_axis, study, value) => (study[timing] = value)),
       this.#select("minimise", "least", named(this.#entries.objectives), (one) => one.minimise ?? "acceleration", (one, _study, value) => (one.minimise = value)),
     ];
-    if (cycle.axis?.length > 1) head.unshift(this.#select("axis", "axis", Object.fromEntries(cycle.axis.map((one, i) => [i, one.name])), () => String(index), (_axis, _study, value, state) => (state.axis = Number(value))));
-    const limits = this.#limits.map(({ name, label, placeholder, about }) => this.#text(`limit ${name}`, { name: label, placeholder, about }, (one) => listed(one.limits?.[name]), (one, _study, value) => {
+    const limits = this.#entries.limits[axis.mechanism ? "machine" : "motion"].map(({ name, label, placeholder, about }) => this.#text(`limit ${name}`, { name: label, placeholder, about }, (one) => listed(one.limits?.[name]), (one, _study, value) => {
       one.limits = { ...one.limits, [name]: value === "true" || sided(value) };
       if (!value) delete one.limits[name];
     }));

@@ -1,5 +1,6 @@
 // Files that the reader saves: the browser downloads them, the server writes none.
 
+import { titled } from "./document.js";
 import { DOCUMENT } from "./opening.js";
 
 const PICTURE = { kind: "picture", text: "Picture (SVG)", about: "The curves as they are seen" };
@@ -12,10 +13,13 @@ export function savings(view) {
   return [...view.files, ...(view.request ? [REPORT] : []), ...(view.drawings ? [PICTURE] : []), WHOLE];
 }
 
+/** What a file of the document is called. */
+const named = (state) => titled(state).replace(/[^\p{L}\p{N}.]+/gu, "_").replace(/^[_.]+|[_.]+$/g, "") || "optlaws";
+
 /** Save a file of a view in a state. */
 export async function save(kind, view, state) {
-  if (kind === "picture") return download("optlaws.svg", "image/svg+xml", picture(view.drawings));
-  if (kind === "document") return download("optlaws.json", "application/json", JSON.stringify({ about: DOCUMENT, state }, null, 1));
+  if (kind === "picture") return download(`${named(state)}.svg`, "image/svg+xml", picture(view.drawings));
+  if (kind === "document") return download(`${named(state)}.json`, "application/json", JSON.stringify({ about: DOCUMENT, state }, null, 1));
   const answer = await fileOf(kind, view, state);
   return download(answer.name, answer.type, answer.text);
 }
@@ -25,7 +29,7 @@ export async function fileOf(kind, view, state) {
   const response = await fetch("api/save", {
     method: "POST",
     headers: { "Content-Type": "application/json" },
-    body: JSON.stringify({ kind, view: state.view, request: view.request(state) }),
+    body: JSON.stringify({ kind, view: state.view, request: view.request(state), ...(kind === "report" && { name: state.name, notes: state.notes }) }),
   });
   const answer = await response.json();
   if (answer.error) throw new Error(answer.error);

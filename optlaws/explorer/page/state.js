@@ -1,7 +1,7 @@
 // The study: all that the page shows follows from it, the address holds it, and every step can be undone.
 
 import { minimise } from "./asked.js";
-import { VIEWS, object } from "./views.js";
+import { PARTS, VIEWS, object } from "./views.js";
 
 const MERGED = 800; // ms within which changes of one thing are one step
 const MOST = 200;
@@ -29,8 +29,8 @@ function lawful(law) {
 /** What a link may hold, and whether the page can show it; the server says what else is wrong with it. */
 const pair = (value) => Array.isArray(value) && value.length === 2 && value.every(Number.isFinite);
 const spectrum = (value) => object(value) && Array.isArray(value.raw) && value.raw.length > 1 && value.raw.every(pair);
-const WHOLE = { controller: object, band: pair, spectrum, ...Object.fromEntries(Object.entries(VIEWS).filter(([, { whole }]) => whole).map(([name, { whole }]) => [name, whole])) };
-const KNOWN = ["name", "notes", "view", "active", "picture", "machinePicture", "move", "time", "axis", "plane", "frequency", "damping", ...Object.keys(WHOLE)];
+const WHOLE = { controller: object, band: pair, spectrum, ...Object.fromEntries(Object.entries(PARTS).map(([name, { whole }]) => [name, whole])) };
+const KNOWN = ["name", "notes", "view", "active", "picture", "machinePicture", "move", "time", "axis", "plane", "frequency", "damping", "cycle", "axes", ...Object.keys(WHOLE)];
 
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
@@ -50,10 +50,18 @@ function asNow({ weights, ...law }) {
   return law;
 }
 
+/** Studies of version 1.0 had a machine for each of its views: the one that was shown is the machine. */
+function oneMachine({ cycle, axes, ...state }) {
+  const moves = object(state.fastest) && !("axis" in state.fastest);
+  const machine = { cycle, axes, fastest: moves ? undefined : state.fastest }[state.view] ?? state.machine ?? cycle ?? axes;
+  const { fastest, machine: _, ...others } = state;
+  return { ...others, ...(moves && { fastest }), ...(machine && { machine }) };
+}
+
 /** The state of a fragment; what is not there is as at first, what cannot be read is left out. */
 export function read(fragment) {
   const parts = new URLSearchParams(fragment.replace(/^#/, ""));
-  const state = structuredClone(FIRST);
+  let state = structuredClone(FIRST);
   const parsed = (text) => {
     try {
       return JSON.parse(text);
@@ -67,6 +75,7 @@ export function read(fragment) {
     const value = parsed(text);
     if (KNOWN.includes(name) && value !== undefined && value !== null) state[name] = value;
   }
+  state = oneMachine(state);
   if (!Number.isInteger(state.active) || state.active < 0 || state.active >= state.laws.length) state.active = 0;
   for (const name of ["frequency", "damping", "axis", "plane"]) if (typeof state[name] !== "number") state[name] = FIRST[name];
   for (const name of ["name", "notes", "view", "picture"]) if (typeof state[name] !== "string") state[name] = FIRST[name];
@@ -80,7 +89,7 @@ export function whole(state, file) {
   const given = { ...structuredClone(FIRST), ...state };
   const found = read(written(given));
   const name = Object.keys(WHOLE).find((one) => one in given && !(one in found));
-  if (name) throw new Error(`${file}: ${VIEWS[name]?.title ?? name} needs ${VIEWS[name]?.needs ?? "what the page wrote"}`);
+  if (name) throw new Error(`${file}: ${VIEWS[given.view]?.title ?? name} needs ${PARTS[name]?.needs ?? "what the page wrote"}`);
   if (given.laws.length && !given.laws.every(lawful)) throw new Error(`${file}: a law needs a problem, a name or its pieces`);
   return found;
 }
@@ -107,7 +116,9 @@ export class Study {
     if (this.#writing === null) return;
     clearTimeout(this.#writing);
     this.#writing = null;
-    const own = Object.entries(this.state).filter(([name, value]) => name === this.state.view || !same(value, this.#examples[name]));
+    const examples = (part) => Object.entries(this.#examples).filter(([view]) => VIEWS[view]?.part === part).map(([, value]) => value);
+    const shown = VIEWS[this.state.view]?.part;
+    const own = Object.entries(this.state).filter(([name, value]) => name === shown || !examples(name).some((one) => same(value, one)));
     const address = written(Object.fromEntries(own));
     history.replaceState(null, "", address);
     this.#kept(address);

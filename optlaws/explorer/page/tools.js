@@ -28,7 +28,7 @@ export class Tools {
     this.#export = button("Export", "For a controller, with what it will run", () => exporting.open());
     root.replaceChildren(
       button("Open", "Open a problem file, a law, a table or a document", () => opening.choose()), button("Notes", "Name and notes", () => details.open()),
-      this.#undo, this.#redo, link, this.#export, saves(study, notice, shown), button("Print", "A report on one page: print it, or save it as PDF", () => print()), settings(study, notice), button("◐", "Dark or light", toggle),
+      this.#undo, this.#redo, link, this.#export, saves(study, notice, shown), settings(study, notice), button("◐", "Dark or light", toggle),
     );
     addEventListener("keydown", (event) => this.#key(event, study));
   }

@@ -138,8 +138,3 @@ def _curves(laws: Sequence[AdvisedLaw]) -> dict[str, Any]:
         series = tuple(curve._replace(name=law.name) for curve, law in zip(panel.series, laws, strict=True))
         panels.append(panel_data(replace(panel, series=series, limits=(), peaks=(), ends=(0.0, 0.0))))
     return over_time(panels, laws[0].motion.duration)
-
-
-def example() -> dict[str, Any]:
-    """The view's initial question: the cycle, with a follower that is switched off."""
-    return {"of": "", "minimise": "", "follower": {"on": False, "low": "27 Hz", "high": "33 Hz", "damping": 0.05}}

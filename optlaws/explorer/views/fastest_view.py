@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import groupby
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -115,12 +115,21 @@ def proof_of(request: CycleRequest) -> dict[str, Any]:
     return search.least.to_dict() | ({"in_this_time": solutions[0]} if solutions else {})
 
 
-def fastest_of(request: CycleRequest) -> FastestMove:
-    """The least time of the move that is shown, with its proof."""
-    least = _search(request).least
-    if isinstance(least, FastestCycle):
-        raise InputError("a least period is saved as a problem file")
-    return least
+def fastest_of(request: CycleRequest) -> FastestMove | FastestCycle:
+    """The least time of the move or of the cycle that is shown, with its proof."""
+    return _search(request).least
+
+
+def export_of(request: CycleRequest) -> Callable[..., Any]:
+    """What writes the motion in the displayed time for a controller."""
+    report, _, _ = _search(request).motion(request.time)
+    if isinstance(report, CycleReport):
+        return report.plan.export
+    if report.law is report.move.law:
+        return report.move.export
+    return partial(
+        report.law.export, stroke=Exact(report.move.stroke, report.move.unit), duration=Exact(report.duration, "s")
+    )
 
 
 def _search(request: CycleRequest) -> _Search:

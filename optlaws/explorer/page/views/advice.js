@@ -4,14 +4,15 @@
 import { Chart, spanOf } from "../chart.js";
 import { group } from "../fields.js";
 import { Latest } from "../latest.js";
-import { valueOf } from "../entries.js";
+import { Form } from "../form.js";
 import { Panels } from "../panels.js";
 import { html, renew } from "../svg.js";
 import { marked, unanswered } from "../trust.js";
-import { headed, number, plain, shownUnit, written } from "../units.js";
+import { headed, number, shownUnit, written } from "../units.js";
 
-const SOURCES = { cycle: "the cycle", machine: "the machine" };
 const OBJECTIVES = ["", "acceleration", "jerk", "rms acceleration", "torque", "rms torque", "force", "rms force", "residual acceleration"];
+const ASKED = { minimise: "", follower: { on: false, low: "27 Hz", high: "33 Hz", damping: 0.05 } };
+const FOLLOWER = [["low", "from"], ["high", "to"], ["damping", "damping"]];
 const MOVES = ["rise", "return", "move"];
 const OPTIMAL = "optimal";
 const LETTER = 0.018; // of the width of a picture
@@ -29,10 +30,8 @@ export class View {
   files = [];
   drawings = "#advice-side svg";
   #study;
-  #start;
   #state = null;
   #answer = null;
-  #shape = "";
   #shows = [];
   #chart;
   #curves;
@@ -42,9 +41,9 @@ export class View {
   #step = 0; // of STEPS, that is under way
   #at;
 
-  constructor(root, study, start) {
+  constructor(root, study) {
     this.#study = study;
-    this.#start = start;
+    this.form = this.#build();
     this.#at = layout(root);
     this.#chart = new Chart(this.#at.chart, () => {});
     this.#curves = new Panels(this.#at.curves);
@@ -55,7 +54,7 @@ export class View {
 
   show(state) {
     this.#state = state;
-    this.#form(state);
+    for (const show of this.#shows) show(this.#asked(state));
     const question = this.request(state);
     if (told(question) === this.#question) return;
     this.#question = told(question);
@@ -67,74 +66,39 @@ export class View {
   request(state) {
     const { minimise, follower } = this.#asked(state);
     const vibrates = follower?.on && { follower: { frequency: [follower.low, follower.high], damping: follower.damping || 0 } };
-    return { study: this.#motion(state), axis: state.axis, ...(minimise && { minimise }), ...vibrates };
+    return { study: state.machine, axis: state.axis, ...(minimise && { minimise }), ...vibrates };
   }
 
   #asked({ advice }) {
-    return { ...this.#start.examples.advice, ...advice };
-  }
-
-  /** The name of the motion that is asked of: the machine or the cycle of the study. */
-  #source(state) {
-    const { of } = this.#asked(state);
-    return Object.hasOwn(SOURCES, of) && state[of] ? of : state.cycle || !state.machine ? "cycle" : "machine";
-  }
-
-  #motion(state) {
-    return state[this.#source(state)] ?? this.#start.examples.cycle;
-  }
-
-  // --- what is asked ---
-
-  #form(state) {
-    const motion = this.#motion(state);
-    const sources = Object.keys(SOURCES).filter((name) => name === this.#source(state) || state[name]);
-    const shape = told([sources, motion.axis.map(({ name }) => name)]);
-    if (shape !== this.#shape) this.#build(sources, motion.axis);
-    this.#shape = shape;
-    for (const show of this.#shows) show(state);
+    return { ...ASKED, ...advice };
   }
 
   #change(what, alter) {
     this.#study.change(`advice ${what}`, (state) => {
       state.advice = structuredClone(this.#asked(state));
-      alter(state.advice, state);
+      alter(state.advice);
     });
   }
 
-  #build(sources, axes) {
-    this.#shows = [];
-    const of = this.#select("of", "motion of", Object.fromEntries(sources.map((name) => [name, SOURCES[name]])), (state) => this.#source(state), (asked, value) => (asked.of = value));
-    const axis = this.#select("axis", "axis", Object.fromEntries(axes.map(({ name }, i) => [i, name])), (state) => String(Math.min(state.axis, axes.length - 1)), (_asked, value, state) => (state.axis = Number(value)), true);
-    const least = this.#select("least", "least", Object.fromEntries(OBJECTIVES.map((name) => [name, name || "as it says"])), (state) => this.#asked(state).minimise, (asked, value) => (asked.minimise = value));
+  // --- what is asked ---
+
+  #build() {
+    const least = html("select", { "aria-label": "least" }, ...OBJECTIVES.map((value) => html("option", { value, text: value || "as it says" })));
+    least.addEventListener("change", () => this.#change("least", (asked) => (asked.minimise = least.value)));
+    this.#shows.push((asked) => (least.value = asked.minimise));
     const on = html("input", { type: "checkbox" });
     on.addEventListener("change", () => this.#change("follower", (asked) => (asked.follower.on = on.checked)));
-    this.#shows.push((state) => (on.checked = this.#asked(state).follower.on));
-    const follower = [["low", "from"], ["high", "to"], ["damping", "damping"]].map(([key, name]) => this.#text(key, name));
-    renew(
-      this.#at.asked,
-      group("Motion", ...(sources.length > 1 ? [of] : []), ...(axes.length > 1 ? [axis] : []), least, html("p", { class: "hint", text: "with the limits, the drive and the load of the motion" })),
+    this.#shows.push((asked) => (on.checked = asked.follower.on));
+    const fields = new Form((what, alter) => this.#change(what, (asked) => alter(asked.follower)), () => this.#study.rest());
+    const follower = FOLLOWER.map(([key, label]) => fields.field({ path: [key], label, placeholder: String(ASKED.follower[key]) }, `follower, ${label}`));
+    this.#shows.push((asked) => {
+      fields.show(asked.follower);
+      for (const field of follower) field.lastElementChild.disabled = !asked.follower.on;
+    });
+    return html("div", {},
+      group("Advice", html("label", { class: "entry" }, html("span", { class: "field-name", text: "least" }), least), html("p", { class: "hint", text: "with the limits, the drive and the load of the motion" })),
       group("What it leaves vibrating", html("label", { class: "switch" }, on, "an elastic follower"), ...follower, html("p", { class: "hint", text: "its natural frequency, the least and the greatest, and its damping ratio" })),
     );
-  }
-
-  #select(what, name, options, get, put, translated = false) {
-    const field = html("select", { "aria-label": name, ...(translated && { translate: "no" }) }, ...Object.entries(options).map(([value, text]) => html("option", { value, text })));
-    field.addEventListener("change", () => this.#change(what, (asked, state) => put(asked, field.value, state)));
-    this.#shows.push((state) => (field.value = get(state)));
-    return html("div", { class: "entry" }, html("span", { class: "field-name", text: name }), field);
-  }
-
-  #text(key, name) {
-    const field = html("input", { type: "text", spellcheck: "false", maxlength: 40, "aria-label": `follower, ${name}` });
-    field.addEventListener("input", () => this.#change(`follower ${key}`, ({ follower }) => (follower[key] = valueOf(plain(field.value.trim())))));
-    field.addEventListener("change", () => this.#study.rest());
-    this.#shows.push((state) => {
-      const { follower } = this.#asked(state);
-      if (document.activeElement !== field) field.value = String(follower[key]);
-      field.disabled = !follower.on;
-    });
-    return html("label", { class: "entry" }, html("span", { class: "field-name", text: name }), field);
   }
 
   // --- what is answered ---
@@ -210,10 +174,8 @@ export class View {
 
   /** Give the motion a law, and show it there. */
   #take({ name, take }) {
-    const source = this.#source(this.#state);
     this.#study.change(`take ${name}`, (state) => {
-      state[source] ??= structuredClone(this.#start.examples.cycle);
-      const axis = state[source].axis[Math.min(state.axis, state[source].axis.length - 1)];
+      const axis = state.machine.axis[Math.min(state.axis, state.machine.axis.length - 1)];
       axis.segment.forEach((segment, i) => {
         const law = take.laws[i];
         if (law === null || law === undefined || !MOVES.includes(segment.kind)) return;
@@ -223,7 +185,7 @@ export class View {
       if (take.minimise) axis.minimise = take.minimise;
       if (take.limits) axis.limits = take.limits;
       if (take.degree) axis.degree = take.degree;
-      state.view = source;
+      state.view = axis.mechanism ? "machine" : "cycle";
     });
   }
 }
@@ -279,7 +241,6 @@ function placed(points, range, log) {
 function layout(root) {
   const panel = (id, attributes = {}) => html("div", { class: "panel", id, ...attributes });
   const at = {
-    asked: html("aside", { id: "advice-asked", "aria-label": "What is asked of the laws" }),
     words: panel("advice-words", { role: "status", "aria-live": "polite" }),
     table: panel("advice-table"),
     chart: html("div", { id: "advice-chart", class: "picture" }),
@@ -287,7 +248,6 @@ function layout(root) {
     curves: html("div", { id: "advice-curves" }),
   };
   root.append(
-    at.asked,
     html("section", { id: "advice-middle", "aria-label": "Laws side by side" }, at.words, at.table),
     html("section", { id: "advice-side", "aria-label": "The laws in a picture, and the recommended one beside the usual one" },
       html("div", { class: "panel" }, at.chart), html("div", { class: "panel", id: "advice-motion" }, at.names, at.curves)),

@@ -1,13 +1,10 @@
-// The view of several axes: their timing diagram with interlocks, the plane of two positions, clearances, a run.
+// The timing of the machine: its axes in a diagram with interlocks, the plane of two positions, clearances, a run.
 
-import { AxisNames } from "../axis_names.js";
 import { Cursor } from "../cursor.js";
 import { group } from "../fields.js";
-import { Interlocks } from "../interlocks.js";
 import { Latest } from "../latest.js";
 import { Panels } from "../panels.js";
 import { Positions } from "../positions.js";
-import { Programme } from "../programme.js";
 import { table } from "../report_table.js";
 import { Run } from "../run.js";
 import { html, renew } from "../svg.js";
@@ -30,9 +27,6 @@ export class View {
   moves = true;
   drawings = "#axes-timing svg, #axes-plane svg, #axes-rooms svg";
   #study;
-  #names;
-  #programme;
-  #interlocks;
   #timing;
   #positions;
   #rooms;
@@ -46,26 +40,22 @@ export class View {
   #known = null;
   #shape = "";
 
-  constructor(root, study, { programme: entries }) {
+  constructor(root, study) {
     this.#study = study;
     const panel = (id, attributes = {}, ...children) => html("div", { id, class: "panel", ...attributes }, ...children);
     const part = (id) => html("div", { id });
     this.#parts = {
-      names: part("axes-names"), programme: part("axes-programme"), interlocks: part("axes-interlocks"), together: part("axes-together"),
+      together: part("axes-together"),
       trust: panel("axes-trust", { role: "status", "aria-live": "polite" }), timing: html("div", { id: "axes-timing" }),
       run: html("div", { id: "axes-run" }), read: html("p", { class: "facts", id: "axes-reading" }), plane: html("div", { id: "axes-plane", class: "picture" }), choice: html("select", { "aria-label": "plane of two positions" }),
       rooms: panel("axes-rooms"), table: panel("axes-table"),
     };
-    const { names, programme, interlocks, together, trust, timing, run, read, plane, choice, rooms, table } = this.#parts;
+    const { together, trust, timing, run, read, plane, choice, rooms, table } = this.#parts;
     root.append(
-      html("aside", { id: "axes-ask", "aria-label": "Axes, their segments and interlocks" }, names, together, interlocks, programme),
       html("section", { id: "axes-middle", "aria-label": "Timing diagram and positions" }, trust, html("div", { class: "panel" }, timing, run, read), html("div", { class: "panel" }, html("div", { class: "panel-head" }, html("span", { class: "quiet", text: "positions" }), choice), plane)),
       html("section", { id: "axes-right", "aria-label": "Clearances" }, rooms, table),
     );
-    const held = (state) => state.axes;
-    this.#names = new AxisNames(names, study, held, entries.interlocks);
-    this.#programme = new Programme(programme, study, held, entries);
-    this.#interlocks = new Interlocks(interlocks, study, held, entries.interlocks);
+    this.form = together;
     this.#timing = new Timing(timing, (row, segments) => this.#moved(row, segments));
     this.#positions = new Positions(plane, (rule, corner, place) => this.#cornered(rule, corner, place));
     this.#rooms = new Panels(rooms, { cursor: this.#cursor });
@@ -78,16 +68,13 @@ export class View {
   }
 
   /** The axis of the programme is the one that a controller is to run. */
-  request({ axes, axis }) {
-    return { study: axes, axis };
+  request({ machine, axis }) {
+    return { study: machine, axis };
   }
 
   show(state) {
-    this.#names.show(state);
-    this.#programme.show(state);
-    this.#interlocks.show(state);
-    this.#goal(state.axes);
-    this.#answers.ask({ study: state.axes });
+    this.#goal(state.machine);
+    this.#answers.ask({ study: state.machine });
     if (this.#answer) this.#draw();
   }
 
@@ -113,7 +100,7 @@ export class View {
   #draw() {
     const known = this.#known?.of === told(this.#asked) ? this.#known.rows : [];
     const { study } = this.#asked;
-    this.#timing.show(this.#answer, study, known.map(({ status }) => status), told(study) === told(this.#study.state.axes));
+    this.#timing.show(this.#answer, study, known.map(({ status }) => status), told(study) === told(this.#study.state.machine));
     this.#positions.show(this.#answer, this.#study.state.plane ?? 0, known);
     const { refused, panels, across, unit, note, planes = [] } = this.#answer;
     this.#rooms.show(refused ? this.#answer : { across, unit, note, panels: known.length ? this.#known.panels : panels, segments: [] });
@@ -147,7 +134,7 @@ export class View {
   #moved(row, segments) {
     this.#study.change(`bar ${row}`, (state) => {
       state.axis = row;
-      if (segments) state.axes.axis[row].segment = segments;
+      if (segments) state.machine.axis[row].segment = segments;
     });
     if (!segments) this.#study.rest();
   }
@@ -156,7 +143,7 @@ export class View {
     if (!place) return this.#study.rest();
     const { axes, units } = this.#answer.planes.find(({ regions }) => regions.some((one) => one.rule === rule));
     return this.#study.change(`corner ${rule} ${corner}`, (state) => {
-      const { axis, across, corners } = state.axes.interlocks[rule];
+      const { axis, across, corners } = state.machine.interlocks[rule];
       corners[corner] = place.map((value, i) => `${value} ${units[axes.indexOf([axis, across][i])]}`);
     });
   }
@@ -170,25 +157,25 @@ export class View {
     const goal = html("select", { "aria-label": "put the moves together for" }, ...Object.entries(GOALS).map(([value, text]) => html("option", { value, text })));
     goal.value = overlap?.goal ?? "";
     goal.addEventListener("change", () => this.#study.change("overlap", (state) => {
-      if (goal.value) state.axes.overlap = { goal: goal.value, ...(goal.value === "acceleration" && { of: [names[state.axis] ?? names[0]] }) };
-      else delete state.axes.overlap;
+      if (goal.value) state.machine.overlap = { goal: goal.value, ...(goal.value === "acceleration" && { of: [names[state.axis] ?? names[0]] }) };
+      else delete state.machine.overlap;
     }));
     const chosen = overlap?.of ?? [];
     const boxes = overlap?.goal !== "acceleration" ? [] : names.map((name) => {
       const box = html("input", { type: "checkbox", checked: chosen.includes(name), onchange: () => this.#study.change(`overlap of ${name}`, (state) => {
-        state.axes.overlap.of = names.filter((one) => (one === name ? box.checked : chosen.includes(one)));
+        state.machine.overlap.of = names.filter((one) => (one === name ? box.checked : chosen.includes(one)));
       }) });
       return html("label", { class: "switch" }, box, `of ${name}`);
     });
-    const press = overlap ? [html("button", { type: "button", text: "Put the moves together", onclick: () => this.#together.ask({ study: this.#study.state.axes }) })] : [];
+    const press = overlap ? [html("button", { type: "button", text: "Put the moves together", onclick: () => this.#together.ask({ study: this.#study.state.machine }) })] : [];
     this.#parts.facts ??= html("div", { role: "status", "aria-live": "polite" });
     renew(this.#parts.together, group("Overlap", goal, ...boxes, ...press, this.#parts.facts));
   }
 
   #put({ refused, facts, study: made }, { study }) {
     if (refused) return this.#say([`${refused.word}: ${written(refused.reason)}`], true);
-    if (made && told(study) === told(this.#study.state.axes)) {
-      this.#study.change("together", (state) => (state.axes = made));
+    if (made && told(study) === told(this.#study.state.machine)) {
+      this.#study.change("together", (state) => (state.machine = made));
       this.#study.rest();
     }
     return this.#say(facts);

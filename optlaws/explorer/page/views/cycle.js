@@ -1,9 +1,9 @@
-// The view of a cycle: its programme on the left, the motion in machine units, its segments and its limits.
+// The motion of an axis of the machine in machine units, its segments and its limits.
 
 import { explained } from "../fields.js";
 import { Latest } from "../latest.js";
 import { Panels } from "../panels.js";
-import { Programme, join } from "../programme.js";
+import { join } from "../programme.js";
 import { table } from "../report_table.js";
 import { Strip } from "../strip.js";
 import { html } from "../svg.js";
@@ -31,7 +31,6 @@ export class View {
   moves = true;
   drawings = "#motion svg";
   #study;
-  #programme;
   #motion;
   #words = explained(WORDS);
   #answer = null;
@@ -39,23 +38,21 @@ export class View {
   #cycles;
   #nearest;
 
-  constructor(_root, study, { programme }) {
+  constructor(_root, study) {
     this.#study = study;
     const strip = new Strip({ moved: (i, at) => this.#join(i, at), rested: () => study.rest(), chosen: (i) => this.#motion.look(this.#answer.segments[i].at) });
     this.#motion = new Panels(element("motion"), { strip });
     this.#motion.cursor.watch((at) => this.#mark(at));
-    this.#programme = new Programme(element("programme"), study, (state) => state.cycle, programme);
     this.#cycles = new Latest("api/cycle", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered(unanswered(error), question));
     this.#nearest = new Latest("api/cycle-nearest", ({ ways }) => this.#render(this.#answer, ways), () => this.#render(this.#answer, []));
   }
 
   /** The request to the server, of which files are made too. */
-  request({ cycle, axis }) {
-    return { study: cycle, axis };
+  request({ machine, axis }) {
+    return { study: machine, axis };
   }
 
   show(state) {
-    this.#programme.show(state);
     this.#cycles.ask(this.request(state));
   }
 
@@ -76,7 +73,7 @@ export class View {
   /** Let a segment end at an angle, and the next one begin there. */
   #join(i, at) {
     const { segments, turn } = this.#answer;
-    this.#study.change(`joint ${i}`, (state) => join(state.cycle.axis[state.axis].segment, segments, { i, at, turn }));
+    this.#study.change(`joint ${i}`, (state) => join((state.machine.axis[state.axis] ?? state.machine.axis[0]).segment, segments, { i, at, turn }));
   }
 
   /** The segment that the cursor is in stands out in the table. */
@@ -87,7 +84,7 @@ export class View {
 
   #back({ entry, value }) {
     this.#study.change(`back ${entry}`, (state) => {
-      const axis = state.cycle.axis[state.axis];
+      const axis = state.machine.axis[state.axis] ?? state.machine.axis[0];
       axis.limits = { ...axis.limits, [entry]: value };
     });
   }

@@ -7,7 +7,6 @@ import { flat } from "../entries.js";
 import { group } from "../fields.js";
 import { Latest } from "../latest.js";
 import { Panels } from "../panels.js";
-import { Programme } from "../programme.js";
 import { table } from "../report_table.js";
 import { Strip } from "../strip.js";
 import { html, renew, svg } from "../svg.js";
@@ -21,11 +20,12 @@ const LONGEST = 2; // times the least, where a front has no end of its own
 const FINEST = 1e-4; // s
 const FILES = [
   { kind: "problem", text: "Problem file (TOML)", about: "For optlaws run" },
-  { kind: "law", text: "Least time with its proof (JSON)", about: "For optlaws verify" },
+  { kind: "proof", text: "Least time with its proof (JSON)", about: "For optlaws verify" },
 ];
 
 export class View {
   files = FILES;
+  moves = true;
   drawings = "#fastest-curves svg";
   #study;
   #state = null;
@@ -33,9 +33,9 @@ export class View {
   #fields;
   #declared;
   #space;
+  #moves; // an example
   #built = "";
   #paths = [];
-  #programme;
   #panels;
   #chart;
   #answers;
@@ -44,34 +44,34 @@ export class View {
   #front = null;
   #asked = null;
 
-  constructor(root, study, { programme, move, space }) {
+  constructor(root, study, { move, space, examples }) {
     this.#space = space;
     this.#declared = Object.fromEntries(move.map((entry) => [entry.name, entry]));
     this.#study = study;
     this.#at = layout(root);
     this.#fields = new Form((what, alter) => this.#change(what, alter), () => study.rest());
-    this.#programme = new Programme(this.#at.programme, study, (state) => state.fastest, programme);
+    this.form = this.#at.ask;
+    this.#moves = examples.moves;
     this.#panels = new Panels(this.#at.curves, { strip: new Strip({ chosen: () => {} }) });
     this.#chart = new Chart(this.#at.chart, (_, value) => (value === null ? study.rest() : this.#give(value / 1000)));
     this.#answers = new Latest("api/fastest", (answer) => this.#answered(answer), (error) => this.#answered(unanswered(error)));
     this.#fronts = new Latest("api/fastest-front", (front, question) => told(question) === told(this.#asked) && this.#swept(front), (error) => this.#swept({ points: [], words: error.message }));
     this.#timing();
+    this.#choose();
   }
 
   /** The request to the server, of which files are made too. */
   request(state) {
-    const { fastest: study, time, axis } = state;
-    return { study, axis: Array.isArray(study.axis) ? axis : this.#number(state), ...(time > 0 && { time }) };
+    const { fastest, machine, time, axis } = state;
+    return { study: fastest ?? machine, axis: fastest ? this.#number(state) : axis, ...(time > 0 && { time }) };
   }
 
   show(state) {
     this.#state = state;
-    const { fastest: study } = state;
-    const cycle = Array.isArray(study.axis);
-    this.#at.form.hidden = cycle;
-    this.#at.programme.hidden = !cycle;
-    if (cycle) this.#programme.show(state);
-    else this.#form(study, this.#entries(state));
+    const { fastest: moves } = state;
+    this.#at.form.hidden = !moves;
+    this.#at.of.value = moves ? "moves" : "";
+    if (moves) this.#form(moves, this.#entries(state));
     const { time: _, ...question } = this.request(state);
     this.#answers.ask(this.request(state));
     if (told(question) !== told(this.#asked)) {
@@ -146,6 +146,16 @@ export class View {
       if (time > least * (1 + 1e-6)) state.time = Number(time.toPrecision(7));
       else delete state.time;
     });
+  }
+
+  /** Whether the least time is that of the machine's cycle or of moves of their own. */
+  #choose() {
+    const { of } = this.#at;
+    of.addEventListener("change", () => this.#study.change("least time of", (state) => {
+      delete state.time;
+      if (of.value) state.fastest = structuredClone(this.#moves);
+      else delete state.fastest;
+    }));
   }
 
   /** One slider of the time, whose stop is the proven least, and beside it the time and the speed as numbers. */
@@ -264,8 +274,9 @@ function layout(root) {
   const box = (name, attributes, ...children) => (made[name] = html("div", { id: `fastest-${name}`, ...attributes }, ...children));
   root.setAttribute("aria-label", "Least times");
   made.words = html("p", { id: "fastest-words", class: "quiet" });
-  root.replaceChildren(
-    html("aside", { id: "fastest-ask", "aria-label": "The motion and its limits" }, box("form", {}), box("programme", { hidden: true })),
+  made.of = html("select", { "aria-label": "least time of" }, html("option", { value: "", text: "the cycle" }), html("option", { value: "moves", text: "moves of their own" }));
+  made.ask = html("div", { id: "fastest-ask" }, group("Least time of", made.of), box("form", {}));
+  root.append(
     html(
       "section", { id: "fastest-middle", "aria-label": "The least time and what longer times save" },
       box("trust", { class: "panel", role: "status", "aria-live": "polite" }),

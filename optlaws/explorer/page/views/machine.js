@@ -1,13 +1,12 @@
-// The view of a machine: mechanism, gear and motor on the left, the mechanism that moves in the middle with torque over
-// speed, over the ratio and over the input, and on the right torque, power and speed over the cycle for each law.
+// The mechanism of the machine and its torque: the mechanism that moves with torque over speed, over the ratio and over the
+// input, and torque, power and speed over the cycle for each law.
 
 import { Chart, spanOf } from "../chart.js";
 import { tabs } from "../fields.js";
 import { Latest } from "../latest.js";
 import { Linkage } from "../linkage.js";
-import { MachineForm, beside } from "../machine_form.js";
+import { beside, changeAll } from "../machine_form.js";
 import { Panels } from "../panels.js";
-import { Programme } from "../programme.js";
 import { Strip } from "../strip.js";
 import { html, renew } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
@@ -35,8 +34,6 @@ export class View {
   drawings = "#machine-curves svg";
   #study;
   #state = null;
-  #form;
-  #programme;
   #linkage;
   #curves;
   #chart;
@@ -59,12 +56,10 @@ export class View {
   #still = () => {};
   #at;
 
-  constructor(root, study, known) {
+  constructor(root, study) {
     this.#study = study;
     const made = layout(root);
     this.#at = made;
-    this.#form = new MachineForm(made.form, study, known, (state) => state.machine);
-    this.#programme = new Programme(made.programme, study, (state) => state.machine, known.programme, { turns: true });
     this.#linkage = new Linkage(made.drawing);
     this.#chart = new Chart(made.chart, (key, value) => this.#moved(key, value));
     this.#input = new Panels(made.input);
@@ -84,8 +79,6 @@ export class View {
 
   show(state) {
     this.#state = state;
-    this.#form.show(state);
-    this.#programme.show(state);
     this.#tray(state);
     const picture = this.#picture(state);
     this.#chooses(picture);
@@ -327,9 +320,9 @@ export class View {
 
   #moved(key, value) {
     if (value === null) return this.#study.rest();
-    if (key === "ratio") return this.#form.change("ratio", (axis) => (axis.drive.ratio = value));
+    if (key === "ratio") return changeAll(this.#study, "ratio", (axis) => (axis.drive.ratio = value));
     const [name, corner] = key.split(" ");
-    return this.#form.change(key, ({ drive }) => {
+    return changeAll(this.#study, key, ({ drive }) => {
       if (corner !== undefined) drive.motor.curve[Number(corner)][1] = `${value} N m`;
       else drive.motor[name] = `${value} ${name === "greatest_speed" ? "rpm" : "N m"}`;
     });
@@ -406,7 +399,6 @@ function layout(root) {
   const made = { root };
   const box = (name, attributes, ...children) => (made[name] = html("div", { id: `machine-${name}`, ...attributes }, ...children));
   root.setAttribute("aria-label", "A machine");
-  const ask = html("aside", { id: "machine-ask", "aria-label": "The mechanism, its gear and its motor" }, box("form", {}), box("programme", {}));
   const middle = html(
     "section", { id: "machine-middle", "aria-label": "The mechanism and its torque" },
     box("tray", { class: "tray", role: "group", "aria-label": "Laws side by side" }),
@@ -419,7 +411,7 @@ function layout(root) {
     box("curves", { class: "panel panels" }),
     box("table", { class: "panel", tabindex: "0", role: "group", "aria-label": "What the laws ask of the drive" }),
   );
-  root.replaceChildren(ask, middle, right);
+  root.append(middle, right);
   return made;
 }
 
