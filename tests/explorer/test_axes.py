@@ -190,7 +190,7 @@ def test_the_corner_of_a_forbidden_region_is_moved(page: Page, served: Server) -
     corner.focus()
     page.keyboard.press("Shift+ArrowUp")
     settle(page)
-    assert page.get_by_label("interlock 1 corners").input_value().split("; ")[2] == "280 mm, 31 mm"
+    assert page.get_by_label("interlocks 0 corners").input_value().split(", ")[2] == "280 mm: 31 mm"
     changed = robot()
     changed["interlocks"] = [BOX | {"corners": [*BOX["corners"][:2], ["280 mm", "31 mm"], BOX["corners"][3]]}]
     (results,) = served.ask("axes-clearances", {"study": changed})["rows"]
@@ -207,7 +207,7 @@ def test_axes_are_added_renamed_and_removed_with_what_names_them(page: Page, ser
     page.keyboard.press("Tab")
     settle(page)
     assert "interlocks clear" in page.locator("#axes-trust").inner_text()
-    assert page.get_by_label("interlock 2 of").input_value() == "turret"
+    assert page.get_by_label("interlocks 1 of").input_value() == "turret"
     page.get_by_role("button", name="+ axis").click()
     settle(page)
     assert page.get_by_label("Axes with their peaks").locator("tbody th").all_inner_texts() == [
@@ -229,18 +229,18 @@ def test_axes_are_added_renamed_and_removed_with_what_names_them(page: Page, ser
 
 def test_an_interlock_of_another_kind_has_the_fields_that_it_declares(page: Page, served: Server) -> None:
     go(page, served.link(view="axes", axes=robot()))
-    page.get_by_label("interlock 1 kind").select_option("clearance")
-    page.get_by_label("interlock 1 least").fill("")
-    page.get_by_label("interlock 1 most").fill("0 mm, 5 mm; 300 mm, 90 mm")
-    page.get_by_label("interlock 1 most").press("Tab")
+    page.get_by_label("interlocks 0 kind").select_option("clearance")
+    page.get_by_label("interlocks 0 least").fill("")
+    page.get_by_label("interlocks 0 most").fill("0 mm: 5 mm, 300 mm: 90 mm")
+    page.get_by_label("interlocks 0 most").press("Tab")
     settle(page)
     changed = robot()
     bound = [["0 mm", "5 mm"], ["300 mm", "90 mm"]]
     changed["interlocks"] = [{"kind": "clearance", "name": "box", "axis": "x", "over": "z", "most": bound}]
     (results,) = served.ask("axes-clearances", {"study": changed})["rows"]
     assert written(results["value"]) in page.locator("#axes-table").inner_text()
-    assert page.get_by_label("interlock 1 corners").count() == 0
-    page.get_by_label("interlock 1 kind").select_option("synchronous")
+    assert page.get_by_label("interlocks 0 corners").count() == 0
+    page.get_by_label("interlocks 0 kind").select_option("synchronous")
     settle(page)
-    assert page.get_by_label("interlock 1 during").input_value() == "60 deg, 120 deg"
-    assert page.get_by_label("interlock 1 to", exact=True).input_value() == "z"
+    assert page.get_by_label("interlocks 0 during").input_value() == "60 deg, 120 deg"
+    assert page.get_by_label("interlocks 0 to", exact=True).input_value() == "z"

@@ -299,7 +299,7 @@ def test_what_a_cycle_declares_is_in_its_form(page: Page, served: Server) -> Non
     ]
     go(page, served.link(view="cycle", cycle=study))
     page.get_by_label("limit snap").fill("60000 m/s^4")
-    page.get_by_label("segment 0 via").fill("80 deg, 20 mm; 120 deg, 31 mm")
+    page.get_by_label("segment 0 via").fill("80 deg: 20 mm, 120 deg: 31 mm")
     page.get_by_label("segment 0 via").press("Tab")
     settle(page)
     axis = study["axis"][0]

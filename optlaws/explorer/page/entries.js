@@ -1,4 +1,5 @@
-// Tables of a problem file as fields: lengths, bodies, loads; a list is written "a, b", a table of places "a: b, c: d".
+// Tables of a problem file as fields: lengths, bodies, loads; a list is written "a, b" or "a to b",
+// a table of places "a: b, c: d".
 
 import { object } from "./views.js";
 
@@ -17,8 +18,8 @@ const plain = (text) => (text !== "" && Number.isFinite(Number(text)) ? Number(t
 
 /** The value of a text; formulas stay as they are. */
 export function valueOf(text) {
-  if (text.includes("(")) return text;
-  const parts = text.split(",").map((part) => part.trim()).filter(Boolean);
+  if (/[({]/.test(text)) return text;
+  const parts = text.split(/,| to /).map((part) => part.trim()).filter(Boolean);
   if (parts.length && parts.every((part) => part.includes(":"))) return parts.map((part) => part.split(":").map((one) => plain(one.trim())));
   return parts.length > 1 ? parts.map(plain) : plain(text.trim());
 }
@@ -36,13 +37,13 @@ export function read(value, path) {
 }
 
 /** Put a text at a path; a blank one takes the entry away, and what is then empty with it. */
-export function put(value, [name, ...rest], text) {
+export function put(value, [name, ...rest], text, parsed = true) {
   if (rest.length === 0) {
     if (text === "") delete value[name];
-    else value[name] = valueOf(text);
+    else value[name] = parsed ? valueOf(text) : text;
     return;
   }
-  if (!object(value[name])) value[name] = {};
-  put(value[name], rest, text);
+  if (typeof (value[name] ?? 0) !== "object") value[name] = {};
+  put(value[name], rest, text, parsed);
   if (Object.keys(value[name]).length === 0 && name !== "bodies") delete value[name];
 }
