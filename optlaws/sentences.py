@@ -27,6 +27,14 @@ class Amount(str):
     def __getnewargs__(self) -> tuple[float, str, int]:  # type: ignore[override] # of a copy
         return self.value, self.unit, self.digits
 
+    def on_page(self, digits: int) -> Amount:
+        """The amount to other digits, with its unit as a page writes it.
+
+        >>> Amount(21.31600001, "m/s^2").on_page(5)
+        '21.316 m/s²'
+        """
+        return Amount(self.value, self.unit.translate(_POWERS), digits)
+
     def to_dict(self) -> Any:
         """Its value, None where it is not finite, its unit and digits; the text alone of what has no unit."""
         value = self.value if isfinite(self.value) else None

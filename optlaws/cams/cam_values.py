@@ -115,6 +115,6 @@ def objective_name(plan: Plan) -> str:
 
 
 def objective_value(motion: Cycle | Plan, name: str) -> Values:
-    """The value of what was minimised, of its laws or of others in the same cycle; nothing where nothing was."""
+    """The value of what was minimised in SI units, of its laws or of others in the same cycle; or nothing."""
     objective = name.removeprefix("peak ")
     return {name: (motion.value(objective), objective_unit(motion.solve(), objective))} if name else {}

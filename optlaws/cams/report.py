@@ -45,6 +45,8 @@ if TYPE_CHECKING:
     from optlaws.cams.disc import DiscCam
     from optlaws.numerics.branch_and_bound import Extremes
 
+#: of numbers on pages; files have all
+DIGITS = 5
 _INSIDE = 1e-9  # of a smooth part: so near to its ends it is drawn
 _FAR = 4.0  # a radius of curvature beyond so many prime circles is a straight edge
 
@@ -114,15 +116,18 @@ class CamReport:
 
     @property
     def _enclosed(self) -> list[tuple[str, str, EnclosedExtreme | None, str, float | None]]:
-        """Extremes by their names in tables and for programs, with their units and the limits that laws reach."""
+        """Extremes by their names in tables and for programs, with their units and the limits that laws reach.
+
+        The least and the greatest pressure angle are together for programs.
+        """
         limits, extremes = self.limits if self.reached else CamLimits(), self.cam.extremes
         (least, most), greatest = extremes.pressure_angles, extremes.greatest_pressure_angle
         return [
             ("greatest pressure angle", "greatest_pressure_angle", greatest, "deg", limits.pressure),
-            ("pressure angle, least", "least_pressure_angle", least, "deg", limits.pressure),
-            ("pressure angle, greatest", "largest_pressure_angle", most, "deg", limits.pressure),
-            ("least radius of curvature, convex", "bulging_radius", extremes.least_convex_radius, "mm", limits.radius),
-            ("least radius of curvature, concave", "hollow_radius", extremes.least_concave_radius, "mm", None),
+            ("pressure angle, least", "", least, "deg", limits.pressure),
+            ("pressure angle, greatest", "", most, "deg", limits.pressure),
+            ("least radius of curvature, convex", "convex_radius", extremes.least_convex_radius, "mm", limits.radius),
+            ("least radius of curvature, concave", "concave_radius", extremes.least_concave_radius, "mm", None),
         ]
 
     @kept_property
@@ -141,12 +146,13 @@ class CamReport:
         """The circles of the cam, its undercut, its enclosed extremes, and what is beyond a limit."""
         base, roller = MILLI * self.cam.base_radius, MILLI * self.cam.contact.roller
         return Section(
-            text=f"The radius of the prime circle is {base + roller:.7g} mm, that of the base circle {base:.7g} mm.\n\n"
-            f"Undercut: {self.cam.extremes.undercut}.",
+            text=f"The radius of the prime circle is {base + roller:.{DIGITS}g} mm, that of the base circle "
+            f"{base:.{DIGITS}g} mm.\n\nUndercut: {self.cam.extremes.undercut}.",
             facts=self.extremes,
             table=self.tables[0],
             note="\n".join(f"Beyond what is allowed: {broken}." for broken in self.beyond),
             data=self.data,
+            digits=DIGITS,
         )
 
     @property
@@ -158,11 +164,13 @@ class CamReport:
     def data(self) -> dict[str, Any]:
         """The cam for programs, in metres and radians: enclosures as pairs, with the angle of the cam."""
         cam, extremes = self.cam, self.cam.extremes
-        enclosed = {key: each and enclosure(each, limit) for _, key, each, _, limit in self._enclosed}
+        enclosed = {key: each and enclosure(each, limit) for _, key, each, _, limit in self._enclosed if key}
+        reached = self.limits.pressure if self.reached else None
         sizes = {size.name.replace(" ", "_"): enclosure(size.extreme) | _limit(size) for size in extremes.sizes}
         return {
             "prime_radius": positive(cam.prime_radius, "prime_radius"),
             "base_radius": cam.base_radius,
+            "pressure_angles": signed_angles(extremes.pressure_angles, reached),
             **enclosed,
             "undercut": {"status": extremes.undercut.status, "simple": extremes.undercut.simple},
             **sizes,
@@ -294,13 +302,12 @@ def barrel_section(cam: BarrelCam) -> Section:
         extreme_row("way of a flank a radian, least", cam.margin, "mm"),
     ]
     data = {
-        "least_pressure_angle": enclosure(least),
-        "largest_pressure_angle": enclosure(greatest),
+        "pressure_angles": signed_angles((least, greatest)),
         "margin": enclosure(cam.margin),
         "undercut": {"status": cam.undercut},
     }
     table = ReportTable.of_pairs(facts, "at least", "at most")
-    return Section(text=f"Undercut: {_CUSPS[cam.undercut]}.", facts=facts, table=table, data=data)
+    return Section(text=f"Undercut: {_CUSPS[cam.undercut]}.", facts=facts, table=table, data=data, digits=DIGITS)
 
 
 def barrel_coordinates(cam: BarrelCam, count: int, cutter: NumberOrQuantity | None = None) -> ReportTable:
@@ -339,13 +346,13 @@ def named_forces(forces: CamForces) -> list[tuple[str, Extremes, str, float]]:
 def forces_section(forces: CamForces, pressed: str = "") -> Section:
     """The forces of a cam over its turn, with a sentence on what presses the follower on it."""
     mean = chop(0.5 * sum(forces.mean_torque), forces.torque.peak, FORCE_ROUNDING)
-    table, facts = [], []
+    table, facts, mean_square = [], [], forces.rms_torque[1]
     for name, curve, unit, factor in named_forces(forces):
         least, most = (chop(factor * value, factor * curve.peak, FORCE_ROUNDING) for value in (curve.least, curve.most))
         first, last = (chop(degrees(at), TURN_DEG, FORCE_ROUNDING) for at in (curve.least_at, curve.most_at))
         table.append([name, least, first, most, last, unit])
         facts.append(Row(name, (least, most), unit))
-    facts.append(Row("root mean square of the torque", forces.rms_torque[1], "N m"))
+    facts.append(Row("root mean square of the torque", mean_square, "N m"))
     left = leaves(forces)
     if left:
         facts.insert(0, Row(left, place=degrees(forces.contact.least_at)))
@@ -358,13 +365,13 @@ def forces_section(forces: CamForces, pressed: str = "") -> Section:
         note=joined(
             " ",
             [
-                f"Torque at the shaft: root mean square {forces.rms_torque[1]:.6g} N m, mean {mean:.6g} N m.",
+                f"Torque at the shaft: root mean square {mean_square:.{DIGITS}g} N m, mean {mean:.{DIGITS}g} N m.",
                 f"{capital(left)}." if left else "The follower stays on the cam.",
                 *([pressed] if pressed else []),
                 *([] if forces.width is None else [Surfaces(materials=forces.materials).assumed]),
             ],
         ),
-        digits=6,
+        digits=DIGITS,
     )
 
 
@@ -401,6 +408,13 @@ def extreme_row(name: str, extreme: EnclosedExtreme, unit: str, limit: float | N
 def enclosure(extreme: EnclosedExtreme, limit: float | None = None) -> dict[str, float | None]:
     """The enclosure of an extreme for programs, in SI units."""
     return {"low": extreme.low, "high": bounded(extreme.high), "angle": _angle(extreme, limit)}
+
+
+def signed_angles(
+    angles: tuple[EnclosedExtreme, EnclosedExtreme], limit: float | None = None
+) -> dict[str, dict[str, float | None]]:
+    """The enclosures of the least and the greatest pressure angle for programs."""
+    return {name: enclosure(each, limit) for name, each in zip(("least", "greatest"), angles, strict=True)}
 
 
 def _angle(extreme: EnclosedExtreme, limit: float | None) -> float | None:

@@ -43,7 +43,14 @@ from optlaws.cams.least_sizes import (
     greatest_roller,
     least_prime_circle,
 )
-from optlaws.cams.report import CamReport, barrel_coordinates, barrel_differences, barrel_section, forces_section
+from optlaws.cams.report import (
+    DIGITS,
+    CamReport,
+    barrel_coordinates,
+    barrel_differences,
+    barrel_section,
+    forces_section,
+)
 from optlaws.cams.springs_and_flywheels import (
     CONTACT,
     GREATEST,
@@ -54,6 +61,7 @@ from optlaws.cams.springs_and_flywheels import (
 )
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.report import objective_unit
+from optlaws.cycles.specification.limits import LimitTaken
 from optlaws.cycles.specification.segments import OPTIMAL
 from optlaws.cycles.usual_law import usual_cycle
 from optlaws.echo import shortened
@@ -66,7 +74,7 @@ from optlaws.motion.quantities import MICRO, MILLI, TURN, TURN_DEG, Exact
 from optlaws.numbers import chop
 from optlaws.plots.cam import animated, barrel_figure, cam_figure, forces_figure, pair_figure
 from optlaws.results import Results
-from optlaws.sentences import capital
+from optlaws.sentences import Amount, capital
 from optlaws.shown.report import ReportTable, Section
 from optlaws.shown.summary import Row
 from optlaws.studies.problem_entries import steady
@@ -337,13 +345,14 @@ class CamResult:
         known = [
             *([f"Search space: {plan.search_space}."] if plan.search_space else []),
             *([f"Given laws: {'; '.join(given)}."] if given else []),
-            *([f"Limits: {'; '.join(map(str, plan.limits_taken))}."] if plan.limits_taken else []),
+            *([f"Limits: {'; '.join(map(_rounded, plan.limits_taken))}."] if plan.limits_taken else []),
         ]
         if not rows and plan.solutions:
             least = f"least {plan.minimise}"
             rows = [Row(least, (plan.objective, plan.lower_bound), objective_unit(plan), note=plan.status.value)]
+        rows = [row._replace(note=_with_gap(row)) for row in rows]
         table = ReportTable.of_pairs(rows, "value", "lower bound", "status") if rows else None
-        return Section("Laws for the cam", rows, table, self.of_laws, note="\n\n".join(known), digits=6)
+        return Section("Laws for the cam", rows, table, self.of_laws, note="\n\n".join(known), digits=DIGITS)
 
     @kept_property
     def of_laws(self) -> dict[str, Any]:
@@ -397,7 +406,7 @@ class CamResult:
         ]
         table = ReportTable.of_pairs(rows, "value", "lower bound", "status")
         data = {name: value for name, value in vars(best).items() if name != "cam"}
-        return Section("Offset", rows, table, {"best_offset": data}, digits=6)
+        return Section("Offset", rows, table, {"best_offset": data}, digits=DIGITS)
 
     def _least_prime_circle(self, motion: Any) -> LeastPrimeCircle | str:
         """The least prime circle of a motion under the limits, or why there is none."""
@@ -427,7 +436,7 @@ class CamResult:
             angle = add("greatest roller", roller.radius, roller.too_large, roller.angle)
             data["greatest_roller"] = {"radius": roller.radius, "too_large": roller.too_large, **angle}
         table = ReportTable.of_pairs(rows, "satisfied with", "violated with") if rows else None
-        return Section("Sizes" if rows else "", rows, table, data, note=reason)
+        return Section("Sizes" if rows else "", rows, table, data, note=reason, digits=DIGITS)
 
     @kept_property
     def least(self) -> LeastPrimeCircle | str | None:
@@ -447,12 +456,12 @@ class CamResult:
         if self.second is None:
             return Section()
         section = CamReport(self.second).section
-        names = ("prime_radius", "base_radius", "greatest_pressure_angle", "bulging_radius", "undercut")
+        names = ("prime_radius", "base_radius", "greatest_pressure_angle", "convex_radius", "undercut")
         data = {"return_cam": {name: section.data[name] for name in names}}
         figure = ("pair", "Both cams on one shaft, with their followers at the start")
         note = "\n\n".join([section.note, self._links(_RETURN)])
         draw = partial(pair_figure, self.cam, self.second)
-        return Section("Return cam", section.facts, section.table, data, figure, section.text, note, draw=draw)
+        return replace(section, heading="Return cam", data=data, figure=figure, note=note, draw=draw)
 
     def _links(self, prefix: str = "") -> str:
         return "\n".join(f"- [{prefix}{entry.name}]({prefix}{entry.name})" for entry in self.spec.file)
@@ -534,7 +543,7 @@ class CamResult:
         rows = [rows[0], *(row._replace(value=chop(row.value, spring.greatest, FORCE_ROUNDING)) for row in rows[1:])]
         rows.append(Row("it is left at", chop(spring.critical[0], TURN_DEG, FORCE_ROUNDING), "deg"))
         note = capital(f"{spring.remark}.") if spring.remark else ""
-        return Section("Spring", rows, data={"spring": spring.to_dict()}, note=note, digits=6)
+        return Section("Spring", rows, data={"spring": spring.to_dict()}, note=note, digits=DIGITS)
 
     @kept_property
     def manufactured(self) -> Section:
@@ -553,7 +562,9 @@ class CamResult:
         hollow = "Where nothing stands the follower does not reach all of the cam, which is concave there."
         data = {name: None if each is None else each.to_dict() for name, each in peaks.items()}
         note = hollow if None in peaks.values() else ""
-        return Section("As made", table=ReportTable.of_columns(columns), data={"as_made": data}, note=note, digits=5)
+        return Section(
+            "As made", table=ReportTable.of_columns(columns), data={"as_made": data}, note=note, digits=DIGITS
+        )
 
     @property
     def sections(self) -> tuple[Section, ...]:
@@ -588,6 +599,19 @@ def _proven(spec: CamOfMotion, plan: Plan) -> dict[str, Any]:
     return {"unit": "SI", "cam": spec.to_dict(), "solutions": steady([each.to_dict() for each in plan.solutions])}
 
 
+def _with_gap(row: Row) -> str:
+    """The status of an objective, and by what share its bound is below it where it is not optimal."""
+    value, bound = row.value
+    return f"{row.note}, gap {100.0 * (1.0 - bound / value):.2g} %" if bound and row.note == "local" else row.note
+
+
+def _rounded(taken: LimitTaken) -> str:
+    """The use of a limit, as pages show numbers."""
+    texts = (text.on_page(DIGITS) if isinstance(text, Amount) else text for text in (taken.text, taken.value_text))
+    limit, value = texts
+    return str(taken._replace(text=limit, value_text=value))
+
+
 def _of_laws(plan: Plan) -> dict[str, Any]:
     """The laws for programs, in SI units: what is least, its bound and status, and what is taken of each limit."""
     solved = bool(plan.solutions)
@@ -620,4 +644,4 @@ def _energy_section(energy: EnergyFluctuation, irregularity: float) -> Section:
         Row("the shaft is slowest at", degrees(energy.slowest_at), "deg"),
         Row(f"flywheel for an irregularity of {irregularity:g}", flywheel, "kg m²"),
     ]
-    return Section("Energy", rows, data={"energy": {**energy.to_dict(), "flywheel": flywheel}}, digits=6)
+    return Section("Energy", rows, data={"energy": {**energy.to_dict(), "flywheel": flywheel}}, digits=DIGITS)

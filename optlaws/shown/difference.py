@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import isfinite
+from math import degrees, isfinite
 from typing import Any, NamedTuple
 
 from optlaws.numbers import bounded
 from optlaws.shown.report import ReportTable, Section
 from optlaws.shown.summary import Row
 
+#: units in which pages show velocities, and how many of each are one of SI: lengths and angles are in mm and degrees
+_SHOWN = {"m/s": ("mm/s", 1e3), "rad/s": ("deg/s", degrees(1.0))}
 _REMEDY = "give them a higher degree, or wider limits"
 _SAME = 5e-4  # of a value: a difference below it is no whole tenth of a per cent
 
@@ -99,14 +101,15 @@ class Differences:
         """A row of facts for each quantity that has both values."""
         return [
             Row(each.name, each.chosen, each.unit, note=_note(each, self.usual))
-            for each in self.values
+            for each in map(_in_shown_unit, self.values)
             if each.chosen is not None and each.usual is not None
         ]
 
     @property
     def table(self) -> ReportTable:
         """The quantities with both values and the difference in per cent."""
-        rows = [[each.name, each.usual, each.chosen, each.text, each.unit] for each in self.values]
+        shown = map(_in_shown_unit, self.values)
+        rows = [[each.name, each.usual, each.chosen, each.text, each.unit] for each in shown]
         return ReportTable(["what", self.usual, "this law", "difference", "unit"], rows)
 
     @property
@@ -131,6 +134,13 @@ class Differences:
         heading = f"Compared with {self.usual}"
         note = f"{self.remark[0].upper()}{self.remark[1:]}." if self.remark else ""
         return Section(heading, self.rows, self.table, self.data, note=note, digits=5)
+
+
+def _in_shown_unit(each: Difference) -> Difference:
+    """A difference in the unit in which pages show its dimension."""
+    unit, factor = _SHOWN.get(each.unit, (each.unit, 1.0))
+    usual, chosen = (None if value is None else factor * value for value in (each.usual, each.chosen))
+    return each._replace(unit=unit, usual=usual, chosen=chosen)
 
 
 def _note(each: Difference, usual: str) -> str:

@@ -47,7 +47,9 @@ def cam(data: Data) -> Verification:
     known, claims = _solutions(data)(), list[Claim]()
     try:
         result = imported("optlaws.jobs.cam").stored(data)
-        stated = {name: value for name, value in data.items() if name not in {"about", "unit", "cam", "solutions"}}
+        stated = {
+            name: value for name, value in _renamed(data).items() if name not in {"about", "unit", "cam", "solutions"}
+        }
         wrong = result.plan.contradiction()
         detail = wrong or f"they meet its joints and keep its limits, in doubles; status {result.plan.status.value}"
         claims = [Claim("the laws of the motion", proven=False, detail=detail, checked=bool(wrong))]
@@ -61,6 +63,19 @@ def cam(data: Data) -> Verification:
         claims.append(Claim("the cam", proven=False, detail=str(error)))
     every = [claim for place, each in known.items() for claim in every_claim(each, f"{place}: ")]
     return with_claims(Verification(), [*every, *claims])
+
+
+#: what the numbers of a cam were called in earlier files
+_EARLIER = {"bulging_radius": "convex_radius", "hollow_radius": "concave_radius"}
+_ANGLES = {"least_pressure_angle": "least", "largest_pressure_angle": "greatest"}
+
+
+def _renamed(data: Data) -> dict[str, Any]:
+    """The numbers of a cam by the names of today."""
+    known = {_EARLIER.get(name, name): value for name, value in data.items() if name not in _ANGLES}
+    angles = {name: data[earlier] for earlier, name in _ANGLES.items() if earlier in data}
+    known |= {"pressure_angles": angles} if angles else {}
+    return known | ({"return_cam": _renamed(known["return_cam"])} if "return_cam" in known else {})
 
 
 def _solutions(data: Data) -> Callable[[], dict[str, Verification]]:

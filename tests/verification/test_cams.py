@@ -72,6 +72,18 @@ def test_a_number_of_a_cam_that_is_changed_is_not_proven() -> None:
     assert [claim.name for claim in verification.claims if not claim.proven] == ["greatest_pressure_angle.high"]
 
 
+def test_a_cam_with_the_names_of_earlier_files_is_proven() -> None:
+    data = dict(stored("cam_pair"))
+    least, greatest = (data["pressure_angles"][name] for name in ("least", "greatest"))
+    data |= {"least_pressure_angle": least, "largest_pressure_angle": greatest, "hollow_radius": data["concave_radius"]}
+    data |= {"bulging_radius": data["convex_radius"]}
+    data["usual_law"] = data["usual_law"] | {"values": data["usual_law"]["values"][1:]}
+    for name in ("pressure_angles", "convex_radius", "concave_radius"):
+        del data[name]
+    assert verify(data).proven
+    assert not verify(changed(data, ("bulging_radius", "low"), 0.9 * data["bulging_radius"]["low"])).proven
+
+
 def test_entries_of_a_cam_that_are_changed_are_found() -> None:
     data = stored("cam_best_laws")
     for path, value in (

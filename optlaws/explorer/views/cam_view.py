@@ -14,7 +14,7 @@ from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import PRESSURE
 from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.forces import Surfaces
-from optlaws.cams.report import CamReport, forces_section, leaves
+from optlaws.cams.report import DIGITS, CamReport, forces_section, leaves
 from optlaws.cycles.specification.drive import CONSTANTS
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located
 from optlaws.explorer.views.cycle_view import SEGMENTS, CycleRequest
@@ -109,7 +109,7 @@ def _trust(report: CamReport) -> dict[str, Any]:
     (word, status), advice = _TITLES[undercut.status], sentence("{}.", undercut)
     if beyond and undercut.status != UNDERCUT:
         (word, status), advice = _BEYOND, sentence("beyond what is allowed: {}.", joined("; ", beyond))
-    facts = fact_sentences(report.extremes)
+    facts = fact_sentences(report.extremes, DIGITS)
     return {"status": status, "word": word, "advice": capital(advice), "facts": facts}
 
 

@@ -212,7 +212,7 @@ def test_a_barrel_has_its_flanks_tabled(tmp_path: Path) -> None:
     assert np.allclose(table[:, 4:7], 1e3 * cam.flank("upper")(angles), atol=1e-5)
     assert np.allclose(table[:, 16:19], 1e3 * cam.cutter_path("5 mm")(angles), atol=1e-5)
     assert reply["undercut"] == {"status": cam.undercut}
-    assert reply["largest_pressure_angle"]["high"] == pytest.approx(cam.pressure_angles[1].high, rel=1e-9)
+    assert reply["pressure_angles"]["greatest"]["high"] == pytest.approx(cam.pressure_angles[1].high, rel=1e-9)
     assert written == {"cam.md", "cam.csv", "cam.json", "cam.svg"}
 
 
@@ -265,7 +265,7 @@ def test_a_second_follower_may_be_another(tmp_path: Path) -> None:
     first = DiscCam(Cycle(swing, speed="200 rpm", degree=5), "60 mm", OscillatingRoller("12 mm", "110 mm", "140 mm"))
     second = conjugate_cam(first, OscillatingRoller("9 mm", "90 mm", "140 mm"), angle="85 deg")
     least = second.extremes.least_convex_radius.low
-    assert reply["return_cam"]["bulging_radius"]["low"] == pytest.approx(least, rel=1e-9)
+    assert reply["return_cam"]["convex_radius"]["low"] == pytest.approx(least, rel=1e-9)
 
 
 def test_a_cam_that_is_undercut_says_so_where_forces_are_asked_for(tmp_path: Path) -> None:
