@@ -14,11 +14,9 @@ version = release = optlaws.__version__
 
 extensions = [
     "code_lines",
-    "docs._ext.entry_tables",
-    "docs._ext.option_tables",
+    "docs._ext.made_parts",
     "docstrings",
     "mathml",
-    "module_tree",
     "myst_parser",
     "public_names",
     "sphinx.ext.autodoc",

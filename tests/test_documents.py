@@ -7,10 +7,11 @@ from pathlib import Path
 import pytest
 
 import optlaws
-from docs._ext import entry_tables, option_tables
 from docs._ext.docstrings import finish, prepare
-from docs._ext.module_tree import MARK, tree
+from docs._ext.entry_tables import TABLES
+from docs._ext.made_parts import PARTS, with_parts
 from docs._ext.stub_names import with_names
+from optlaws import catalogue
 from tests.documents import PROGRAMS, ROOT, Command, commands, failure
 from tests.internals.cli import COMMANDS
 from tests.internals.jobs import JOBS
@@ -52,9 +53,14 @@ def test_every_fenced_block_has_a_language_that_is_executed_or_needs_no_executio
     assert not [info for info in openings if info not in LANGUAGES and not info.startswith("{")]
 
 
-def test_the_architecture_shows_the_tree_as_it_is() -> None:
-    assert MARK in (ROOT / "docs" / "architecture.md").read_text("utf-8")
-    assert {line.split("/")[0].strip() for line in tree().splitlines() if "/" in line} >= set(FOLDERS)
+def test_parts_that_are_made_of_the_code_have_their_places() -> None:
+    pages = {name: with_parts(name, (ROOT / f"docs/{name}.md").read_text("utf-8")) for name in PARTS}
+    entries = pages["reference/problem-files"]
+    assert entries.count("| entry |") == len(TABLES) + 1  # that of studies is written by hand
+    assert all(f"`{name}`" in entries for name in ("follower.kind", "minimise", "rated_torque"))
+    assert pages["reference/command-line"].count("| Argument |") >= len(COMMANDS)
+    assert all(f"| {name} |" in pages["how-to/catalogue"] for name in catalogue)
+    assert all(f"{folder}/" in pages["architecture"] for folder in FOLDERS)
 
 
 def test_the_reference_shows_every_public_name() -> None:
@@ -62,17 +68,6 @@ def test_the_reference_shows_every_public_name() -> None:
     lists = [names.split(", ") for page in pages for names in re.findall(r":members: (.*)", page)]
     single = [re.findall(r"(?:autofunction|py:data):: (?:\S+\.)?(\w+)", page) for page in pages]
     assert set(vars(optlaws)["__all__"]) - {name for names in [*lists, *single] for name in names} == set()
-
-
-def test_the_tables_of_entries_are_what_the_values_declare() -> None:
-    page = entry_tables.page_with_tables((ROOT / f"docs/{entry_tables.PAGE}.md").read_text("utf-8"))
-    for name in entry_tables.TABLES:
-        assert f"<!-- entries of {name} -->\n\n| entry |" in page
-
-
-def test_the_tables_of_options_are_what_the_commands_declare() -> None:
-    page = option_tables.page_with_tables((ROOT / f"docs/{option_tables.PAGE}.md").read_text("utf-8"))
-    assert all(f"<!-- options of {name} -->\n\n| Argument |" in page for name in COMMANDS)
 
 
 def test_every_path_and_module_that_a_document_names_is_there() -> None:

@@ -1,14 +1,10 @@
 """The tables of entries in docs/reference/problem-files.md, made from what the values of problem files declare.
 
-They come into the page when it is built. A new table is a line of `TABLES`, and its mark in the page:
-`<!-- entries of NAME -->`.
+A new table is a line of `TABLES`, and its mark in the page: `<!-- entries of NAME -->`.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
 
 from optlaws.cams.barrel import Groove
 from optlaws.entries.reference import markdown_table
@@ -22,10 +18,6 @@ from optlaws.mechanisms.drives.motor import Motor
 from optlaws.mechanisms.linkages.mechanism_kinds import Body, Loads, MechanismKind
 from optlaws.synthesis.problem.problem import PROBLEM
 
-if TYPE_CHECKING:
-    from sphinx.application import Sphinx
-
-PAGE = "reference/problem-files"
 #: tables of declared values by their names; of some entries the entries stand elsewhere
 TABLES: dict[str, Callable[[], str]] = {
     "a table of solutions": partial(
@@ -50,29 +42,3 @@ TABLES: dict[str, Callable[[], str]] = {
     "a cam": partial(markdown_table, CamProblemFile, apart=("motion", "pair.follower")),
     "a barrel": partial(markdown_table, Groove),
 }
-
-
-def with_tables(page: str, what: str, tables: Mapping[str, Callable[[], str]]) -> str:
-    """The page with these tables, each below its mark, which says what it lists and by which name."""
-    for name, table_of in tables.items():
-        mark = f"<!-- {what} of {name} -->\n"
-        if mark not in page:
-            raise ValueError(f"the page has no mark {mark.strip()}")
-        page = page.replace(mark, f"{mark}\n{table_of()}\n")
-    return page
-
-
-def page_with_tables(page: str) -> str:
-    """The page of problem files with all tables."""
-    return with_tables(page, "entries", TABLES)
-
-
-def _fill(_app: Sphinx, page: str, source: list[str]) -> None:
-    if page == PAGE:
-        source[0] = page_with_tables(source[0])
-
-
-def setup(app: Sphinx) -> dict[str, bool]:
-    """Fill the page as it is read."""
-    app.connect("source-read", _fill)
-    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,20 +1,10 @@
-"""The rooms in docs/architecture.md: the folders of the package with the first lines of their docstrings.
-
-The tree comes into the page when it is built.
-"""
-
-from __future__ import annotations
+"""The rooms in docs/architecture.md: the folders of the package with the first lines of their docstrings."""
 
 import ast
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from sphinx.application import Sphinx
 
 ROOT = Path(__file__).resolve().parents[2]
-MARK = "<!-- the tree -->\n"
 _INDENT = "  "
 _COLUMN = 30
 
@@ -38,14 +28,3 @@ def _line(depth: int, name: str, sentence: str) -> str:
 def tree() -> str:
     """All rooms as a block of text."""
     return "\n".join(["```text", *lines(ROOT / "optlaws"), "```", ""])
-
-
-def _fill(_app: Sphinx, page: str, source: list[str]) -> None:
-    if page == "architecture":
-        source[0] = source[0].replace(MARK, tree())
-
-
-def setup(app: Sphinx) -> dict[str, bool]:
-    """Fill the page as it is read."""
-    app.connect("source-read", _fill)
-    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,22 +1,14 @@
 """The tables of docs/reference/command-line.md, made from what the commands declare of their arguments and options.
 
-They come into the page when it is built, each below its mark: `<!-- options of NAME -->`.
+Each has its mark in the page: `<!-- options of NAME -->`.
 """
 
-from __future__ import annotations
-
-from functools import partial
 from inspect import Parameter
 from itertools import groupby
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from docs._ext.entry_tables import with_tables
-from optlaws.cli.app import COMMANDS, app
+from optlaws.cli.app import app
 
-if TYPE_CHECKING:
-    from sphinx.application import Sphinx
-
-PAGE = "reference/command-line"
 #: commands that take the options of another, which stand there
 SHARED = {"front": "solve"}
 #: of options that need no heading of their own
@@ -52,19 +44,3 @@ def _row(argument: Any) -> str:
     usual = f" `{default}` unless given." if isinstance(default, str | int | float) and default is not False else ""
     among = f" One of {', '.join(f'`{each}`' for each in choices)}." if (choices := argument.get_choices()) else ""
     return f"| {', '.join(f'`{name}`' for name in names)} | {text}{among}{usual} |"
-
-
-def page_with_tables(page: str) -> str:
-    """The page of the command line with all tables."""
-    return with_tables(page, "options", {name: partial(option_tables, name) for name in COMMANDS})
-
-
-def _fill(_app: Sphinx, page: str, source: list[str]) -> None:
-    if page == PAGE:
-        source[0] = page_with_tables(source[0])
-
-
-def setup(app: Sphinx) -> dict[str, bool]:
-    """Fill the page as it is read."""
-    app.connect("source-read", _fill)
-    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from optlaws import InputError, catalogue, smoothstep
-from tests.documents import ROOT
 from tests.internals.laws import canonical, continuity_with_rest, plain
 from tests.laws.reference import rows
 
@@ -212,24 +211,6 @@ def test_entries_are_plain_data() -> None:
     assert data["aliases"]["TwinCAT"] == ["MODSINUSLINIE = 11"]
     assert data["published"][0]["C"] == "5.53"
     assert data["law"]["kind"] == "piecewise"
-
-
-def documented() -> str:
-    """The table of docs/how-to/catalogue.md."""
-    headings = ("law", "built", "B", "C", "D", "J", "continuous to", "other names", "source")
-    lines = [headings, ["---"] * len(headings)]
-    for entry in catalogue.values():
-        peaks = entry.constants
-        numbers = [f"{getattr(peaks, name).value:.7g}" for name in "BCDJ"]
-        names = "; ".join(f"{language}: {', '.join(some)}" for language, some in entry.names if language != "short")
-        source = entry.source + (" (**from memory**)" if entry.from_memory else "")
-        order = ("a", "b", "c", "j", "j'")[entry.continuity]
-        lines.append([entry.name, entry.formula, *numbers, order, names.replace("english: ", ""), source])
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
-
-
-def test_the_table_in_the_documentation_is_the_catalogue() -> None:
-    assert documented() in (ROOT / "docs" / "how-to" / "catalogue.md").read_text("utf-8")
 
 
 @pytest.mark.parametrize("order", [2, 9, 10, 11])
