@@ -124,6 +124,7 @@ DOORS: dict[str, Callable[[str], Any]] = {
 }  # fmt: skip
 
 
+@pytest.mark.sample(4)
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("value", EXTREMES)
 @pytest.mark.parametrize("door", DOORS)

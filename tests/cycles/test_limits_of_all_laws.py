@@ -40,6 +40,7 @@ RESULTS: dict[str, Callable[[], Any]] = {
 }
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("name", RESULTS)
 def test_every_least_time_says_what_no_law_beats_or_that_it_is_not_known(name: str) -> None:
     result = RESULTS[name]()

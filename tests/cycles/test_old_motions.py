@@ -42,7 +42,7 @@ def test_a_valve_without_a_dwell_at_its_crest(valve: tuple[float, float, float],
     assert table.peaks[1].low > 0.94 * by_degree
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("seed", range(6))
 def test_specks_of_dust_are_left_out_and_listed(seed: int) -> None:
     """A cam measured every 0.4 deg of the crank with noise of 2 um, as home-made machines do, and six specks."""
@@ -147,6 +147,7 @@ def test_exact_rests_do_not_hide_the_noise_of_moves() -> None:
     assert [part.law for part in table.moves] == ["cycloidal"] * 2
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("step", [0.25, 0.5, 1.0])
 def test_finer_samples_divide_a_table_alike(step: float) -> None:
     x = np.arange(0.0, 360.0 + 0.5 * step, step)

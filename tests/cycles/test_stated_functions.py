@@ -189,6 +189,7 @@ def test_a_polynomial_beside_a_line_takes_its_slope(tmp_path: Path) -> None:
         assert third.b(0.0) * stretches[2].stroke / (stretches[2].stop - 180.0) == pytest.approx(1.0 / 3.0)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("name", ["codesys-xyva", "twincat-nc2", "siemens-points", "csv", "iec-st"])
 def test_functions_of_our_exports_come_back_as_the_cycle_they_were(name: str, tmp_path: Path) -> None:
     options: dict[str, Any] = {"interpolation": "quintic", "points": 601} if name == "csv" else {}

@@ -513,7 +513,7 @@ def example_of(view: str) -> dict[str, Any]:
     return EXAMPLES.get({"fastest": "moves"}.get(view, view), cycle_view.example)()
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("view", downloads.VIEWS)
 def test_the_report_of_a_view_is_printed_with_its_facts_and_curves(view: str) -> None:
     study = example_of(view)

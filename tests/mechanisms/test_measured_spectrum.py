@@ -139,6 +139,7 @@ def test_damaged_lines_are_refused_with_their_file(line: int, tmp_path: Path) ->
         read_spectrum(file)
 
 
+@pytest.mark.sample(9)
 @pytest.mark.parametrize("points", [9, 33, 65])
 @pytest.mark.parametrize("size", [1e-12, 1.0, 1e9])
 def test_few_points_are_above_and_near_what_was_measured(points: int, size: float) -> None:

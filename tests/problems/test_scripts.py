@@ -80,7 +80,7 @@ def test_a_script_asserts_its_numbers_and_is_short(name: str) -> None:
     assert len(script.splitlines()) <= 320
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(9)
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.long] if name in SLOW else []) for name in problems.names()]
 )

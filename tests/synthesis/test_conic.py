@@ -4,7 +4,18 @@ from collections import Counter
 
 import pytest
 
-from optlaws import Chebyshev, InfeasibleProblem, Problem, Solution, synthesize
+from optlaws import (
+    Bernstein,
+    BoundaryConditions,
+    Chebyshev,
+    InfeasibleProblem,
+    Problem,
+    Solution,
+    Window,
+    at_most,
+    synthesize,
+    via,
+)
 from tests.synthesis import reference
 from tests.synthesis.conic import least
 from tests.synthesis.judge import broken, lower_bounded
@@ -78,8 +89,28 @@ def test_both_references_agree(minimise: str) -> None:
         assert least(problem) == pytest.approx(reference.least(problem), rel=1e-5)
 
 
-@pytest.mark.sample(3)
-@pytest.mark.parametrize("number", [98, 101, 102])
-def test_quadratic_steps_end_what_clarabel_leaves(number: int) -> None:
+#: the 103rd problem that is drawn with the seed 21, with fewer digits
+MANY_UNITS = Problem(
+    B=at_most(3.24646),
+    order=5,
+    basis=Bernstein(1),
+    minimise="max(83694083.7*peak(3.97e-11*(c^2 + 3*b^2)), 0.0407767*C_plus)",
+    symmetric=False,
+    bounds={"peak(52500*(c^2 + 3*b^2))": at_most(10538396.5)},
+    boundary=BoundaryConditions((0.0, 0.653, 0.0, 0.0, 0.0), (-1.0, -0.306, 0.0, 0.0, 0.0)),
+    windows=(
+        Window("4.3e-10*c + 1.77e-10*b", low=-7.63656e-09, start=0.226, stop=0.277),
+        via("261000*b - 135000*a", -634439.147, at=0.443),
+    ),
+)
+
+
+def test_quadratic_steps_end_what_clarabel_leaves() -> None:
     """Constants in units that differ by 1e9 leave the cones next to no interior."""
+    assert synthesize(MANY_UNITS).status == "optimal"
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("number", [98, 101, 102])
+def test_quadratic_steps_end_what_clarabel_leaves_of_random_problems(number: int) -> None:
     assert synthesize(every_unit(21, number + 1)[number].problem).status == "optimal"

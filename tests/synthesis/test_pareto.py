@@ -111,6 +111,7 @@ def test_three_constants_give_a_surface() -> None:
     assert max(solution.gap for solution in front) < 1e-7
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("problem", "over"), [(Problem(B=1.641, order=4), ("C", "D")), (Problem(order=3), ("B", "D"))])
 def test_fronts_of_power_are_proven(problem: Problem, over: tuple[str, str]) -> None:
     proven = pareto_front(problem, over=over, points=4, bound="tight")

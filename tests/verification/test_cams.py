@@ -52,7 +52,7 @@ def test_the_laws_of_a_cam_are_proven_and_its_numbers_computed_again(name: str, 
     assert {claim.name for claim in verification.unchecked} == {"the laws of the motion", "the numbers"}
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("name", sorted(file.parent.name for file in (ROOT / "results").glob("*/cam.json")))
 def test_every_number_of_a_cam_that_is_changed_is_found(name: str) -> None:
     data = stored(name)

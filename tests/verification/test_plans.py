@@ -94,6 +94,7 @@ def test_the_numbers_of_an_axis_are_proven_by_its_laws_or_computed_again(axis: d
     assert named < set(numbers.detail.split(": ")[1].split(", "))
 
 
+@pytest.mark.sample(10)
 @pytest.mark.parametrize("minimise", ["power", "force", "rms force", "energy", "acceleration"])
 @pytest.mark.parametrize("drive", [{"mass": "2 kg"}, {"mass": "2 kg", "stiffness": "900 N/m", "gravity": "20 N"}])
 def test_objectives_of_a_drive_are_proven_by_the_constants_of_the_laws(minimise: str, drive: dict[str, str]) -> None:

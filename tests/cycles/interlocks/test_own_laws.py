@@ -203,6 +203,7 @@ def test_the_acceleration_of_given_laws_with_limits_is_that_of_their_cycle() -> 
     assert best.axes["slide"].peak(2) == pytest.approx(best.objective * machine["slide"].unchecked().peak(2), rel=1e-9)
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("law", ["optimal", "cycloidal"])
 @pytest.mark.parametrize("drive", [{"mass": "2 kg", "gravity": "19.6 N"}, Mechanism("2 kg", "19.6 N", axis="length")])
 def test_the_fastest_moves_keep_what_their_drive_may_take(law: str, drive: Any) -> None:

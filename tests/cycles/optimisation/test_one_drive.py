@@ -157,7 +157,7 @@ def test_one_drive_in_two_words_has_one_answer(motion: str, name: str, what: str
     agree(both[0], both[1])
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(12)
 @pytest.mark.parametrize("motion", MOTIONS)
 @pytest.mark.parametrize("name", ["mass", "spring", "damper"])
 @pytest.mark.parametrize(

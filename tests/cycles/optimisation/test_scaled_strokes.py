@@ -109,6 +109,7 @@ def test_every_limit_of_a_move_is_tried() -> None:
     }
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("scale", SCALES)
 @pytest.mark.parametrize("limits", MOVES)
 def test_the_least_time_is_of_no_scale(limits: Mapping[str, tuple[float, str]], scale: float) -> None:

@@ -65,7 +65,7 @@ def noticed(data: dict[str, Any]) -> bool:
         return True
 
 
-@pytest.mark.sample(6)
+@pytest.mark.sample(9)
 @pytest.mark.parametrize("name", MADE)
 def test_each_limit_is_verified_and_read_again(name: str) -> None:
     limit = limit_of(name)

@@ -178,6 +178,7 @@ def test_limits_have_the_unit_of_the_torque(unit: float, minimise: str) -> None:
     assert other.gap < 1e-6
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("C", "cap"), [(9.0, 2.2), (5.0, 1.6)])
 def test_the_velocities_of_a_limit_are_those_of_its_motion(C: float, cap: float) -> None:
     """Time and energy of the loaded inertia along the velocities of the file, on a grid."""

@@ -29,6 +29,7 @@ def least_time_against_waves(P: float, height: float, waves: float) -> float:
     return float(time(ahead, meet) + time(back, 1 - meet))
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("P", "height", "waves"),
     [(9.0, 0.0, 1.0), (7.0, -6.0, 5.0), (7.0, 3.0, 10.0), (7.0, 3.0, 30.0), (7.0, -3.0, 30.0), (7.0, 3.0, 60.0)],
@@ -65,6 +66,7 @@ def least_peak_with_drag(drag: float) -> float:
     return float(P)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("drag", [0.03, 0.3, 3.0, 10.0])
 def test_drag_from_rest_is_integrated_as_exactly_as_without(drag: float) -> None:
     limit, least = drive_limit(f"c + {drag}*b", "peak torque"), least_peak_with_drag(drag)
@@ -90,6 +92,7 @@ def least_time_with_drag(drag: float, P: float, C: float) -> float:
     return float(change / C + time + at(time)[1] / C)
 
 
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("C", [5.0, 5.3, 5.513])
 @pytest.mark.parametrize("drag", [0.8, 1.1])
 def test_the_torque_takes_over_from_the_acceleration_where_it_does(drag: float, C: float) -> None:

@@ -46,7 +46,7 @@ def forward(problem: Problem) -> Problem:
     return replace(problem, monotone=True, symmetric=problem.symmetric is True and "Powers" in repr(problem.basis))
 
 
-@pytest.mark.sample(3)
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("name", PROBLEMS)
 def test_no_other_start_leads_to_a_better_law(name: str) -> None:
     problem = forward(PROBLEMS[name])

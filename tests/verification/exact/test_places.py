@@ -26,7 +26,7 @@ def proof_of(name: str) -> Certificate:
     return proof
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("name", HELD_UP)
 def test_a_bound_over_the_places_of_a_peak_is_proven(name: str) -> None:
     proof = proof_of(name)

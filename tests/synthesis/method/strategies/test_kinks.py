@@ -150,7 +150,7 @@ _INTEGRALS: list[Callable[[float, float], str]] = [
 ]
 
 
-@pytest.mark.sample(18)
+@pytest.mark.sample(45)
 @pytest.mark.parametrize("seed", range(90))
 def test_random_integrals_of_sizes_are_optimal(seed: int) -> None:
     """Pairs of kinks are often within 1e-4 of each other at the optimum, or come and go at the middle of a law."""
@@ -232,7 +232,7 @@ def test_no_descent_of_scipy_finds_a_law_of_less_heat(seed: int) -> None:
     assert ours <= float(np.sqrt(least)) * (1.0 + 2e-3)
 
 
-@pytest.mark.sample(4)
+@pytest.mark.sample(8)
 @pytest.mark.parametrize(
     "constant",
     [
