@@ -15,7 +15,8 @@ from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
 from optlaws.cycles.report import objective_unit
 from optlaws.errors import OptlawsError
-from optlaws.motion.quantities import MILLI, QUANTITIES, UNITS
+from optlaws.motion.piece import unit_of
+from optlaws.motion.quantities import MILLI, QUANTITIES
 from optlaws.numbers import chop
 from optlaws.shown.difference import Difference, Differences
 from optlaws.tolerances import FORCE_ROUNDING
@@ -58,9 +59,8 @@ def barrel_values(cam: BarrelCam, rate: float) -> Values:
 def _peaks(motion: CamMotion, rate: float) -> Values:
     """Peak velocity, acceleration and jerk of a follower at a speed of the cam in rad/s."""
     return {
-        f"peak {name}": (factor * rate**nu * max(map(abs, motion.extremes(nu))), unit)
-        for nu, (name, (unit, factor)) in enumerate(zip(QUANTITIES, UNITS[motion.axis], strict=True))
-        if nu
+        f"peak {name}": (rate**nu * max(map(abs, motion.extremes(nu))), unit_of(motion.axis, nu))
+        for nu, name in enumerate(QUANTITIES[1:], 1)
     }
 
 
