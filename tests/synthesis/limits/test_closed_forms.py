@@ -121,16 +121,10 @@ def test_a_rich_law_comes_near_the_limit_and_not_below(B: float, order: int, mon
     assert solution.best_possible < solution.lower_bound < solution.best_possible * 1.2
 
 
-@pytest.mark.parametrize("B", [1.0, 0.5, 0.0, -2.0, nan, inf, -inf])
-def test_a_peak_velocity_that_makes_no_sense_is_refused(B: float) -> None:
+@pytest.mark.parametrize("B", [1.0, 0.5, 0.0, -2.0, nan, inf, -inf, "2", None, True, [2.0], 2j])
+def test_a_peak_velocity_that_makes_no_sense_is_refused(B: object) -> None:
     with pytest.raises(InputError, match="B must be a finite number above 1"):
-        acceleration_limit(B)
-
-
-@pytest.mark.parametrize("B", ["2", None, True, [2.0], 2j])
-def test_a_peak_velocity_that_is_no_number_is_refused(B: object) -> None:
-    with pytest.raises(InputError, match="B must be a finite number above 1"):
-        acceleration_limit(B)  # type: ignore[arg-type]
+        acceleration_limit(B)  # type: ignore[arg-type] # that is what is refused
 
 
 @pytest.mark.parametrize("order", [0, -1, 1.5, "2", True, None])

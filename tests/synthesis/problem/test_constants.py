@@ -44,6 +44,7 @@ LINEAR: list[dict[str, Any]] = [
     {"minimise": "C_minus", "symmetric": False, "C": at_most(7.0), "B": 1.9, "order": 3},
     {"minimise": "C_plus", "B": 1.859},
     {"minimise": "C_minus", "B": 1.859},
+    {"minimise": "C_minus"},
     {"minimise": "max(C/4, J/32)"},
     {"minimise": "max(C/4, J/32)", "B": 1.7, "order": 3},
     {"minimise": "max(C/4, J/32, B)", "order": 3},
@@ -138,15 +139,6 @@ def test_the_least_rms_of_all_is_the_parabola_of_velocity() -> None:
 # --- symmetry and degree, for every objective ---
 
 EVEN = ["C", "J", "snap", "rms_c", "rms_j", "C/8 + J/64", "max(C/4, J/32)"]
-
-
-@pytest.mark.sample(4)
-@pytest.mark.parametrize("minimise", EVEN)
-@pytest.mark.parametrize("B", [None, 1.641, 2.3], ids=str)
-def test_unsymmetric_laws_are_no_better(minimise: str, B: float | None) -> None:
-    one, other = (synthesize(problem(B=B, minimise=minimise, symmetric=s)) for s in (True, False))
-    assert other.objective == pytest.approx(one.objective, rel=1e-10)
-    judge(other)
 
 
 @pytest.mark.sample(6)

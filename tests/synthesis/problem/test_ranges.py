@@ -56,13 +56,6 @@ def test_a_range_that_makes_no_sense_is_refused(wrong: tuple[Any, Any]) -> None:
         between(*wrong)
 
 
-@pytest.mark.parametrize("one", [at_least(1.5), at_most(1.7), between(1.4, 1.6), None, 1.641], ids=repr)
-@pytest.mark.parametrize("bound", [at_least(50.0), at_most(60.0), between(55.0, 70.0), 60.0], ids=repr)
-def test_bounds_survive_json(one: Any, bound: Any) -> None:
-    asked = problem(B=one, J=bound)
-    assert Problem.from_dict(asked.to_dict()) == asked
-
-
 # --- a bound that does not bind changes nothing; one that does is met ---
 
 

@@ -79,13 +79,6 @@ def test_a_contradiction_names_the_window() -> None:
         synthesize(Problem(B=1.5, order=4, basis=Chebyshev(5), windows=(upper,)))
 
 
-@pytest.mark.parametrize("problem", CASES, ids=range(len(CASES)))
-def test_problems_with_windows_survive_dicts_and_text(problem: Problem) -> None:
-    assert Problem.from_dict(problem.to_dict()) == problem
-    names = {"Problem": Problem, "Window": Window, "via": via, "Chebyshev": Chebyshev, "Pieces": Pieces}
-    assert eval(repr(problem), names) == problem  # noqa: S307 - a repr of our own
-
-
 @pytest.mark.parametrize(
     ("arguments", "text"),
     [

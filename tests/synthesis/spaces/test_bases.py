@@ -20,6 +20,7 @@ from optlaws import (
 )
 from optlaws.synthesis import PolynomialBasis
 from tests.synthesis.independent import check_solution, velocity_of, z_of, z_powers_of
+from tests.synthesis.judge import judge
 
 K = np.linspace(0.0, 1.0, 201)
 SHAPES = [(1.859, 4, 3), (1.641, 4, 9), (2.3, 2, 7), (1.9, 6, 15), (2.7, 3, 15), (1.5, 1, 5), (1.859, 5, 11)]
@@ -103,18 +104,23 @@ def test_a_new_basis_is_one_class() -> None:
 
 @pytest.mark.sample(4)
 @pytest.mark.parametrize(
-    ("order", "degree", "monotone"), [(4, 3, False), (4, 9, False), (2, 15, False), (3, 9, True), (4, 19, False)]
+    ("order", "degree", "monotone", "minimise"),
+    [
+        *((4, 3, False, "C"), (4, 9, False, "C"), (2, 15, False, "C"), (3, 9, True, "C"), (4, 19, False, "C")),
+        *((4, 9, False, "J"), (4, 9, False, "rms_c"), (4, 9, False, "snap"), (4, 9, False, "C/8 + J/64")),
+    ],
 )
-def test_a_sweep_gives_what_each_problem_gives_alone(order: int, degree: int, monotone: bool) -> None:  # noqa: FBT001
-    first = Problem(B=1.6, order=order, basis=Chebyshev(degree), monotone=monotone)
-    problems = [replace(first, B=float(B)) for B in np.linspace(1.6, 2.4, 17)]
+def test_a_sweep_gives_what_each_problem_gives_alone(order: int, degree: int, monotone: bool, minimise: str) -> None:  # noqa: FBT001
+    first = Problem(B=1.6, order=order, basis=Chebyshev(degree), monotone=monotone, minimise=minimise)
+    problems = [replace(first, B=float(B)) for B in np.linspace(1.5 if minimise != "C" else 1.6, 2.4, 17)]
     for warm, problem in zip(sweep(problems), problems, strict=True):
         cold = synthesize(problem)
         assert warm.problem == problem
-        assert warm.objective == pytest.approx(cold.objective, rel=1e-11)
-        assert warm.lower_bound == pytest.approx(cold.lower_bound, rel=1e-11)
-        check_solution(cold)
-        check_solution(warm, of_array=True)
+        assert warm.objective == pytest.approx(cold.objective, rel=1e-11 if minimise == "C" else 1e-10)
+        if minimise == "C":
+            assert warm.lower_bound == pytest.approx(cold.lower_bound, rel=1e-11)
+            check_solution(cold)
+            check_solution(warm, of_array=True)
 
 
 @pytest.mark.parametrize("step", [1e-6, 0.01, 0.3, -0.2])
@@ -158,14 +164,30 @@ def test_a_sweep_over_nothing_is_nothing() -> None:
 # --- symmetry and degree ---
 
 
-@every_shape
-def test_unsymmetric_laws_are_no_better(B: float, order: int, degree: int) -> None:
-    problem = Problem(B=B, order=order, basis=Chebyshev(degree))
+#: b stays at B about the middle: undivided, b <= B is ill posed there
+FLAT_TOPS = [(1.2, 3, 9), (1.5, 3, 9), (1.641, 4, 9), (1.53, 5, 13), (1.4, 2, 15), (1.9, 6, 15), (2.3, 2, 9)]
+EVEN = ["J", "rms_c", "rms_j", "snap", "max(C/4, J/32)", "C/8 + J/64"]
+
+
+@pytest.mark.sample(4)
+@pytest.mark.parametrize(
+    ("B", "order", "degree", "minimise"),
+    [
+        *((*shape, "C") for shape in [*SHAPES, *FLAT_TOPS]),
+        *((*shape, "J") for shape in FLAT_TOPS),
+        *((B, 4, 9, minimise) for B in (None, 1.641, 2.3) for minimise in ["C", *EVEN]),
+    ],
+)
+def test_unsymmetric_laws_are_no_better(B: float | None, order: int, degree: int, minimise: str) -> None:
+    problem = Problem(B=B, order=order, basis=Chebyshev(degree), minimise=minimise)
     one, other = synthesize(problem), synthesize(replace(problem, symmetric=False))
     assert other.objective == pytest.approx(one.objective, rel=1e-10)
-    assert other.lower_bound == pytest.approx(one.lower_bound, rel=1e-10)
+    judge(other)
+    assert other.status.value == "optimal"
     assert other.problem.symmetric is False
-    check_solution(other)
+    if B is not None and minimise == "C":
+        assert other.lower_bound == pytest.approx(one.lower_bound, rel=1e-10)
+        check_solution(other)
 
 
 @pytest.mark.parametrize("degree", [4, 8, 12])

@@ -144,11 +144,6 @@ def test_symmetric_laws_need_symmetric_breaks() -> None:
     assert Problem(B=1.7, order=3, symmetric=False, basis=Pieces((0.0, 0.3, 0.5, 1.0))).basis.name == "pieces"
 
 
-def test_a_problem_with_pieces_survives_dicts() -> None:
-    problem = Problem(B=1.7, order=3, basis=Pieces(4, 4, 2))
-    assert Problem.from_dict(problem.to_dict()) == problem
-
-
 def test_pieces_of_order_1_are_free_to_start_moving() -> None:
     # Z of degree 9 makes a law of degree 11, which is one piece of that degree
     expected = Problem(B=1.75, order=1, basis=Chebyshev(9), symmetric=False)

@@ -93,12 +93,6 @@ def test_a_proof_holds_in_rational_arithmetic_from_its_json_alone(first: Solutio
         assert not proven_exactly(data | {"claim": solution.objective * (1 + 1e-6)})
 
 
-def test_a_proof_survives_json(first: Solution) -> None:
-    again = Certificate.from_dict(json.loads(json.dumps(certificate(first).to_dict())))
-    assert again == certificate(first)
-    assert again.bound == first.lower_bound
-
-
 def test_quick_solutions_and_convex_ones_have_no_power_certificate() -> None:
     assert synthesize(FIRST).power_certificate is None
     convex = synthesize(replace(FIRST, minimise="C"), bound="tight")
