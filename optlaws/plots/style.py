@@ -154,6 +154,20 @@ def rendered(drawing: Figure, kind: str) -> bytes:
     """The picture as svg or png, without the date: the same drawing gives the same bytes."""
     stream = io.BytesIO()
     metadata = {"svg": {"Date": None, "Creator": MARK}, "png": {"Software": MARK}}[kind]
-    with plot_style():
-        drawing.savefig(stream, format=kind, metadata=metadata)
+    dpi, canvas = drawing.dpi, drawing.canvas
+    try:
+        # Figure.savefig draws twice, first for its layout, which drawing once does too
+        with plot_style():
+            drawing.set_dpi(STYLE["savefig.dpi"])
+            if kind == "svg":
+                from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+                FigureCanvasSVG(drawing).print_svg(stream, metadata=metadata)
+            else:
+                from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+                FigureCanvasAgg(drawing).print_png(stream, metadata=metadata)
+    finally:
+        drawing.set_canvas(canvas)
+        drawing.set_dpi(dpi)
     return stream.getvalue()
