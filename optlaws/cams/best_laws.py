@@ -63,6 +63,8 @@ class SolvedPiece(NamedTuple):
 
 Solved: TypeAlias = list[SolvedPiece]
 
+_WIDER = "make the prime circle larger, the limits wider, or the motion longer"
+
 _ROUNDS = 8
 
 
@@ -158,6 +160,7 @@ def best_cam(
     if limits.proven(given.extremes):  # the best laws without the limits keep them
         bound = _total(cycle, known)
         return BestCam(given, cycle.objective, bound, cycle.status, cycle.solutions)
+    _refuse_radius_at_rest(cycle, given, limits.radius)
     inner = _solved(cycle, given, limits.in_si, below=True)
     outer = _solved(cycle, given, limits.in_si, below=False) if not given.contact.linear else inner
     inner, outer = _with_curvature(cycle, given, limits.radius, inner, outer)
@@ -342,6 +345,20 @@ def _solved(cycle: Cycle, cam: DiscCam, limits: dict[str, float], *, below: bool
     return solved
 
 
+def _refuse_radius_at_rest(cycle: Cycle, cam: DiscCam, radius: float | None) -> None:
+    """Refuse a least radius in m that the profile has not where the follower rests, whatever the law."""
+    for piece, solution, _ in _with_solutions(cycle):
+        curvature = None if radius is None else curvature_of(piece, cam.contact, radius, cycle.duration)
+        rest = None if solution is None or curvature is None else curvature.at_rest()
+        if rest is not None and solution is not None:
+            raise InfeasibleProblem(
+                f"no law from {piece.start:.6g} s on keeps the least radius of curvature: where the follower rests the "
+                f"profile has {shown(rest - cam.contact.roller)}, whatever the law: make the prime circle larger, or "
+                "the least radius smaller",
+                problem=solution.problem,
+            )
+
+
 def _with_curvature(
     cycle: Cycle, cam: DiscCam, radius: float | None, inner: Solved, outer: Solved
 ) -> tuple[Solved, Solved]:
@@ -365,13 +382,9 @@ def _solved_with_curvature(problem: Problem, curvature: RollerCurvature) -> Solu
     try:
         return synthesize(replace(problem, windows=(*problem.windows, curvature.window())))
     except (InfeasibleProblem, SolverFailure):
-        rest = curvature.at_rest()
-        radius = None if rest is None else shown(rest - curvature.contact.roller)
-        known = "" if radius is None else f" (at rest the profile has {radius}, whatever the law)"
         raise SolverFailure(
-            f"no law was found from {curvature.piece.start:.6g} s on that keeps the least radius of curvature{known},"
-            " and under this follower its limit is not convex in the law: make the prime circle larger, the limits"
-            " wider, or the motion longer"
+            f"no law was found from {curvature.piece.start:.6g} s on that keeps the least radius of curvature, and "
+            f"under this follower its limit is not convex in the law: {_WIDER}"
         ) from None
 
 
@@ -384,11 +397,10 @@ def _best(
         return synthesize(_problem(problem, windows, ()))
     except InfeasibleProblem as error:
         where = f"from {guide.start:.6g} s on"
-        remedy = "make the prime circle larger, the limits wider, or the motion longer"
         if below and not contact.linear:
-            raise SolverFailure(f"no law was found {where} that keeps the limits of the cam: {remedy}") from None
+            raise SolverFailure(f"no law was found {where} that keeps the limits of the cam: {_WIDER}") from None
         raise InfeasibleProblem(
-            f"no law {where} keeps the limits of the cam: {remedy}. {error.args[0]}",
+            f"no law {where} keeps the limits of the cam: {_WIDER}. {error.args[0]}",
             problem=error.problem,
             tried=error.tried,
             proof=error.proof,
