@@ -298,7 +298,7 @@ def refuse_too_weak(span: LawSpan, objective: CycleObjective) -> None:
     from optlaws.laws.catalogue.catalogue import USUAL, catalogue
 
     drive = objective.drive
-    if drive is None or not has_torque_limit(span, drive):
+    if drive is None or not limit_of_drive_holds(span, objective):
         return
     sides = span.stretches[0].sides(objective.limits)
     curve = torque_at_rest(drive) if Side(Kind.CURVE) in sides else inf
@@ -319,6 +319,18 @@ def refuse_too_weak(span: LawSpan, objective: CycleObjective) -> None:
         ),
         proof=least,
     )  # fmt: skip
+
+
+def limit_of_drive_holds(span: LawSpan, objective: CycleObjective) -> bool:
+    """Whether the limit of the torque, of laws that never turn back, is one of all that a span may have.
+
+    A spring that swings may take less of a law that does; an inertia alone does not.
+    """
+    drive = objective.drive
+    if drive is None or not has_torque_limit(span, drive):
+        return False
+    inert = drive.linear is not None and not any(drive.linear[1:])
+    return inert or _never_back(span, objective) or span_problem(span, objective).monotone
 
 
 def _stronger(span: LawSpan, drive: Drive) -> str:

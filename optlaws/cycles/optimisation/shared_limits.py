@@ -17,6 +17,7 @@ from operator import itemgetter
 
 from optlaws.cycles.optimisation.objectives import SUMS, CycleObjective
 from optlaws.cycles.optimisation.optimal import (
+    limit_of_drive_holds,
     refuse_too_weak,
     solve,
     solved,
@@ -32,6 +33,7 @@ from optlaws.cycles.optimisation.span_values import (
     size_of,
     span_bound,
     sum_along,
+    torque_limit,
     total,
 )
 from optlaws.cycles.specification.limits import DECELERATION, FORCES, SPEEDING_UP, Side, Sides, in_units, tightest
@@ -214,6 +216,7 @@ class _SharedLimit:
         """The best laws of all spans."""
         if self.left <= 0.0:
             raise self._too_much(self._given, "what is given takes")
+        self._refuse_too_little()
         if len(self.layout.spans) == 1:
             return self._alone()
         laws = self._laws(self.objective)
@@ -258,6 +261,20 @@ class _SharedLimit:
             f"limits: the {what} over the cycle is to be at most {most:.9g}, but {why} {least:.9g}: allow more, or "
             "give the cycle more time"
         )
+
+    def _refuse_too_little(self) -> None:
+        """Refuse an rms force that no law has, by the limits of all laws, where the usual law has more of it."""
+        from optlaws.laws.catalogue.catalogue import USUAL, catalogue
+
+        spans, objective, usual = self.layout.spans, self._of_sum(), catalogue[USUAL].law
+        if self._kind is not Kind.FORCE or not all(limit_of_drive_holds(span, objective) for span in spans):
+            return
+        if total([span.by(usual) for span in spans], Kind.FORCE, objective.drive) <= self.left:
+            return
+        known = [(span.duration, torque_limit(span, objective, "rms torque")) for span in spans]
+        least = sum(duration * limit.value**2 for duration, limit in known if limit is not None)
+        if least > self.left:
+            raise self._too_much(self._given + least, "no law, of whatever degree, takes less than")
 
     @property
     def _exact(self) -> bool:

@@ -2,7 +2,8 @@
 
 import pytest
 
-from optlaws import Basis, BSplines, Chebyshev, Pieces, Problem, at_most, synthesize
+from optlaws import Basis, BSplines, Chebyshev, InfeasibleProblem, Pieces, Problem, at_most, rms, synthesize
+from optlaws.synthesis.method.discretised import quadratic_steps
 from tests.internals.synthesis import evaluate
 from tests.sampling import sampled
 
@@ -24,6 +25,18 @@ def test_a_bound_at_the_least_value_is_kept(basis: Basis, bounded: str, minimise
     # the norm has one least law, and those with a little room lie within its square root
     there = Problem(order=3, basis=basis, symmetric=False, minimise=minimise)
     assert solution.objective == pytest.approx(evaluate(there, least.law).objective, rel=30.0 * (room + 1e-13) ** 0.5)
+
+
+def test_a_search_ends_where_no_step_keeps_more_of_the_rows(monkeypatch: pytest.MonkeyPatch) -> None:
+    """From every start some quadratic programs show it; all rounds of them took minutes, for nothing."""
+    counted: list[object] = []
+    solve = quadratic_steps.conic_optimum
+    monkeypatch.setattr(quadratic_steps, "conic_optimum", lambda *a, **k: [counted.append(a), solve(*a, **k)][1])
+    kinked = rms("max(1.1*c + 0.5, 0.9*c + 0.5)")
+    assert synthesize(Problem(order=3, minimise=kinked, C=at_most(4.8), monotone=True)).objective < 4.0
+    with pytest.raises(InfeasibleProblem, match=r"C = 4\.3 everywhere"):
+        synthesize(Problem(order=3, minimise=kinked, C=at_most(4.3), monotone=True))
+    assert 0 < len(counted) < 300
 
 
 @pytest.mark.long

@@ -16,11 +16,12 @@ from optlaws.numbers import Array
 from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.answer import QUADRATIC, Answer
-from optlaws.synthesis.method.discretised.conic import conic_optimum, usable
+from optlaws.synthesis.method.discretised.conic import INFEASIBLE, conic_optimum, usable
 from optlaws.tolerances import EMPTY_ROW, STEP_SETTLED
 
 _STEP_PAYS = 1e-4  # of what a quadratic step promises: the share that it must hold
 _STEP_FEASIBILITY = 1e-9  # what a row may be exceeded by in a quadratic step
+_LEFT_OVER = 1e-6  # by so much rows are exceeded in the last step where nothing near keeps them
 _STEP_GAIN = 1e-13  # of the objective: a quadratic step that promises less is rounding
 _QUADRATIC_SOLVER = 1e-13  # what a solver of quadratic steps is told to leave of gap and feasibility
 
@@ -146,7 +147,10 @@ class _Descent:
         if last is None:
             return Answer.missing(program, self.points, "no quadratic step", taken)
         weights = np.split(np.maximum(multipliers, 0.0), self.ends[1:-1])
-        return Answer(x, [*weights, last.equations], success=settled, status=QUADRATIC, iterations=taken)
+        # however dear, no step keeps more of the rows near x, and further points only add some
+        beyond = (settled or damping > _MOST_DAMPED) and last.left > _LEFT_OVER
+        status = INFEASIBLE if beyond else QUADRATIC
+        return Answer(x, [*weights, last.equations], settled and not beyond, status, iterations=taken)
 
     def _tried(
         self, x: Array, rows: _Rows, step: _Step, bend: Array, damping: float

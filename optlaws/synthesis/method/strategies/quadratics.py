@@ -92,7 +92,7 @@ class ByQuadratics(Strategy[list[Points], ActiveSet]):
         self.count += 1
         self._stepped(points, _STEP_SHOWS_CONTACTS)
         optimum = self._shown(points)
-        if optimum is None:
+        if optimum is None and self.answer is not None:
             self._stepped(points, STEP_SETTLED)
             optimum = self._shown(points)
         answer = self.answer
@@ -134,7 +134,7 @@ class ByQuadratics(Strategy[list[Points], ActiveSet]):
     def _stepped(self, points: list[Points], settled: float) -> None:
         """The answer that quadratic programs lead to, until a step is less than a share of the variables."""
         answer = stepwise_on_points(self.program, points, self.x, settled)
-        self.answer = answer if np.isfinite(answer.x).all() else None
+        self.answer = answer if answer.usable and np.isfinite(answer.x).all() else None
         if self.answer is not None:
             self.x, self.iterations = self.answer.x, self.iterations + self.answer.iterations
 
