@@ -23,6 +23,8 @@ from optlaws.tolerances import AGREEMENT
 #: what is more than so many times as great is far above
 _FAR = 1.5
 _MACHINE = {1: "velocity, {}/s", 2: "acceleration, {}/s²", 3: "jerk, {}/s³"}
+#: what moves, and what moves it, by the unit of the stroke
+_MASS = {"m": ("mass", "force, N"), "rad": ("moment of inertia", "torque, N m")}
 
 
 @declared
@@ -52,6 +54,9 @@ class Comparison(Declared, title="a comparison"):
         default=None,
     )
     damping: float = entry(Number(), "Its damping ratio.", default=0.0)
+    mass: float | None = entry(
+        Number(), "What moves, kg or kg m²; force, or torque, and power are listed for it.", default=None
+    )
 
     def _check(self) -> None:
         _ = self.rows  # what is wrong is refused at once
@@ -106,6 +111,10 @@ class Comparison(Declared, title="a comparison"):
                 text.format(self.unit): factor(self.stroke, self.duration, nu) * law.peak(nu).value
                 for nu, text in _MACHINE.items()
             }
+            if self.mass is not None:
+                h, T = self.stroke, self.duration
+                row[_MASS[self.unit][1]] = self.mass * constants.C.value * h / T**2
+                row["power, W"] = self.mass * constants.D.value * h**2 / T**3
         if self.frequency is not None:
             row["residual"] = residual_vibration(frequency=self.frequency, damping=self.damping).value(law)
         return row
@@ -117,6 +126,7 @@ def compare_laws(
     duration: Quantity | None = None,
     frequency: NumberOrQuantity | tuple[NumberOrQuantity, NumberOrQuantity] | None = None,
     damping: float = 0.0,
+    mass: Quantity | None = None,
 ) -> Comparison:
     """Constants and machine values of several laws beside each other.
 
@@ -133,6 +143,9 @@ def compare_laws(
         free vibration in the motion; or an interval (low, high). The greatest residual acceleration is listed too.
     damping
         Damping ratio of the follower.
+    mass
+        Mass that moves, or moment of inertia that turns, such as "2.5 kg": the greatest force, or torque, and power of
+        its acceleration are listed; with stroke and duration.
 
     Raises
     ------
@@ -158,6 +171,10 @@ def compare_laws(
             given = shortened(stroke)
             raise InputError(f"stroke must be above 0, got {given}: give how far the machine moves as '35 mm'")
         check_scale(height, unit_of(kind), "stroke", stroke)
+    unit = unit_of(kind)
+    if mass is not None and height is None:
+        raise InputError("mass goes with stroke and duration: the force depends on the peaks in the machine")
+    moved = None if mass is None else positive(quantity(mass, _MASS[unit][0], "mass"), "mass")
     named: dict[str, MotionLaw] = {}
     for place, law in enumerate(laws, 1):
         name = law if isinstance(law, str) else getattr(law, "name", f"law {place}")
@@ -166,7 +183,7 @@ def compare_laws(
         named[name] = read_law(law) if isinstance(law, str) else motion_law(law)
     phase: Any = frequency
     phase = [_phase(each, seconds) for each in phase] if isinstance(phase, list | tuple) else _phase(phase, seconds)
-    return Comparison(named, height, None if height is None else seconds, unit_of(kind), phase, damping)
+    return Comparison(named, height, None if height is None else seconds, unit, phase, damping, moved)
 
 
 def _phase(frequency: Any, seconds: float | None) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from math import isfinite
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
@@ -14,6 +15,7 @@ from optlaws.errors import InputError
 from optlaws.laws.curve import Curve
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.report import law_panels
+from optlaws.motion.piece import factor, unit_of
 from optlaws.plots.report import draw_panel, draw_share
 from optlaws.plots.style import BLUES, BROWN, GREEN, GREY, VIOLET, WARM, new_figure, plot_style
 from optlaws.synthesis.limits.of_problem import limited_laws
@@ -105,14 +107,15 @@ def _with_peaks(panel: Panel, axes: Axes, style: Mapping[str, Any]) -> list[Arti
     gaps = np.flatnonzero(np.isnan(values[1:-1])) + 1
     sides = np.unique(np.concatenate([gaps - 1, gaps + 1]))
     if sides.size:
-        artists += axes.plot(k[sides], values[sides], marker="o", markerfacecolor="white", markersize=3.0, **look)
+        ring: Any = {"marker": "o", "markerfacecolor": "white", "markersize": 3.0} | look
+        artists += axes.plot(panel.per * k[sides], values[sides], **ring)
     if not isfinite(panel.peak):
         # but the highest hundredth, which may be unbounded near a break
         low, high = np.nanpercentile(values, [1.0, 99.0])
         room = _MARGIN * ((high - low) or 1.0)
         axes.set_ylim(min(low, 0.0) - room, max(high, 0.0) + room)
     elif panel.peaks:
-        artists += axes.plot(*np.transpose(panel.peaks), marker="o", markersize=4.0, **look)
+        artists += axes.plot(*(np.transpose(panel.peaks) * [[panel.per], [1.0]]), marker="o", markersize=4.0, **look)
     return artists
 
 
@@ -145,14 +148,19 @@ _COMPARED = (
 
 
 def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style: Any) -> list[Artist]:
-    """Draw a, b, c and j of several laws one over the other, dimensionless, with one legend in a new figure."""
+    """Draw a, b, c and j of several laws one over the other, with one legend in a new figure.
+
+    They are in units of the machine where the comparison has its stroke and duration, else dimensionless.
+    """
     by_order = four(panels() if axes is None else axes)
+    if comparison.duration is not None:
+        by_order[-1].set(xlabel="time, ms")
     looks = [{**_COMPARED[place % len(_COMPARED)], **style} for place in range(len(comparison.laws))]
     drawn = [
         [
             artist
-            for panel, each in zip(law_panels(law, LETTERS), by_order, strict=True)
-            for artist in _with_peaks(panel, each, look)
+            for nu, (panel, each) in enumerate(zip(law_panels(law, LETTERS), by_order, strict=True))
+            for artist in _with_peaks(_in_machine(panel, nu, comparison), each, look)
         ]
         for law, look in zip(comparison.laws.values(), looks, strict=True)
     ]
@@ -161,6 +169,20 @@ def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style:
         firsts = [artists[0] for artists in drawn]
         figure.legend(firsts, list(comparison.laws), loc="outside lower center", ncols=3, frameon=False)
     return [artist for artists in drawn for artist in artists]
+
+
+def _in_machine(panel: Panel, nu: int, comparison: Comparison) -> Panel:
+    """The panel of a derivative over the time of the machine, in its units; as it is where these are not known."""
+    stroke, duration = comparison.stroke, comparison.duration
+    if stroke is None or duration is None:
+        return panel
+    size, name = factor(stroke, duration, nu), panel.name.rpartition(" ")[0]
+    (curve,) = panel.series
+    peaks = tuple((duration * k, size * value) for k, value in panel.peaks)
+    ends = size * panel.ends[0], size * panel.ends[1]
+    series = (curve._replace(at=duration * curve.at, values=size * curve.values),)
+    unit = unit_of("length" if comparison.unit == "m" else "angle", nu)
+    return replace(panel, name=name, unit=unit, series=series, peaks=peaks, ends=ends, per=1e3)
 
 
 def accelerations_figure(laws: Mapping[str, MotionLaw]) -> Figure:

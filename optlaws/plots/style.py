@@ -159,14 +159,17 @@ def rendered(drawing: Figure, kind: str) -> bytes:
         # Figure.savefig draws twice, first for its layout, which drawing once does too
         with plot_style():
             drawing.set_dpi(STYLE["savefig.dpi"])
+            own: Any  # the methods have no types
             if kind == "svg":
                 from matplotlib.backends.backend_svg import FigureCanvasSVG
 
-                FigureCanvasSVG(drawing).print_svg(stream, metadata=metadata)
+                own = FigureCanvasSVG(drawing)
+                own.print_svg(stream, metadata=metadata)
             else:
                 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-                FigureCanvasAgg(drawing).print_png(stream, metadata=metadata)
+                own = FigureCanvasAgg(drawing)
+                own.print_png(stream, metadata=metadata)
     finally:
         drawing.set_canvas(canvas)
         drawing.set_dpi(dpi)

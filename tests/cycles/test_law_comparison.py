@@ -15,6 +15,7 @@ from optlaws import (
     Mechanism,
     Motor,
     Problem,
+    Return,
     Rise,
     at_most,
     catalogue,
@@ -40,6 +41,26 @@ def test_numbers_are_those_of_the_laws() -> None:
     assert sine["residual"] == residual_vibration(frequency=(12, 32), damping=0.05).value(SINE)
     turned = compare_laws(catalogue["modified sine"], stroke="180 deg", duration="1 s").rows[0]
     assert turned["acceleration, rad/s²"] == pytest.approx(np.pi * SINE.constants.C.value)
+
+
+def test_a_mass_has_its_force_and_power_and_the_picture_the_units_of_the_machine() -> None:
+    moved = {"stroke": "35 mm", "duration": "0.1 s"}
+    comparison = compare_laws(catalogue["modified sine"], **moved, mass="2 kg")
+    (row,) = comparison.rows
+    segments = [Rise("35 mm", "0.1 s", law="modified sine"), Dwell("0.1 s"), Return(duration="0.1 s")]
+    rise = Cycle(segments, period="0.3 s").solve()
+    assert row["force, N"] == pytest.approx(2.0 * 19.3478, rel=1e-4)
+    torque = 2.0 * np.max(np.abs(np.multiply(*(rise(np.linspace(0.0, 0.1, 20001), nu) for nu in (1, 2)))))
+    assert row["power, W"] == pytest.approx(torque, rel=1e-6)
+    velocity = comparison.plot()[0].axes.figure.axes[1]
+    assert (velocity.get_ylabel(), velocity.figure.axes[3].get_xlabel()) == ("velocity, m/s", "time, ms")
+    assert np.nanmax(velocity.lines[0].get_ydata()) == pytest.approx(row["velocity, m/s"], rel=1e-6)
+    assert np.nanmax(velocity.lines[0].get_xdata()) == pytest.approx(100.0)
+    turned = compare_laws("modified sine", stroke="90 deg", duration="0.1 s", mass="0.3 kg m^2").rows[0]
+    assert turned["torque, N m"] == pytest.approx(0.3 * np.pi / 2 * SINE.constants.C.value / 0.01)
+    for wrong in ({"mass": "2 kg"}, {**moved, "mass": "2 kg m^2"}, {**moved, "mass": "0 kg"}):
+        with pytest.raises(InputError, match=r"^mass "):
+            compare_laws("modified sine", **wrong)
 
 
 def test_the_optimum_beside_modified_sine() -> None:

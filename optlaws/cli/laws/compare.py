@@ -14,8 +14,8 @@ _COMPARED = "optlaws.cycles.law_comparison:compare_laws"
 
 
 @takes(
-    "Draw a, b, c and j of all laws into this file, PNG or SVG.",
-    machine=options(_COMPARED, "stroke", "duration"),
+    "Draw position, velocity, acceleration and jerk of all laws into this file, PNG or SVG.",
+    machine=options(_COMPARED, "stroke", "duration", "mass"),
     follower=options(_COMPARED, "damping"),
 )
 def compare(
