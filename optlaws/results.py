@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import json
+import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
 import msgspec
 
 from optlaws.echo import unknown_key
-from optlaws.errors import InputError
+from optlaws.errors import InputError, not_installed
 from optlaws.files import reading, tables, writing
 from optlaws.files.printed import MISPRINT, ON_GRID, REPRODUCED, PrintedNumber, compared, number, rows, same_digits
 from optlaws.files.problem_file import Text, convert
@@ -77,11 +80,11 @@ class Page:
         """The picture `name`.svg beside the page."""
         return self._add(f"![{caption}]({name}.svg)")
 
-    def picture(self, name: str, caption: str, figure: Figure, of: str = "a picture") -> Page:
-        """A picture `name`.svg, which is put into the results of the page."""
-        if self._results is not None:
-            self._results.picture(name, figure, of)
-        return self.figure(name, caption)
+    def picture(self, name: str, caption: str, draw: Callable[[], Figure], of: str = "a picture") -> Page:
+        """A picture `name`.svg, which is drawn into the results of the page; none without matplotlib."""
+        if self._results is None or self._results.draw(name, draw, of):
+            self.figure(name, caption)
+        return self
 
     def table(self, headings: Sequence[str], rows: Sequence[Sequence[Cell]], *, digits: int = 7) -> Page:
         """A table with aligned columns and a given number of digits."""
@@ -107,9 +110,10 @@ class Page:
         if section.heading:
             self.heading(section.heading)
         if section.figure is not None:
-            self.figure(*section.figure)
             if section.draw is not None and self._results is not None:
-                self._results.picture(section.figure[0], section.draw(self._results.title))
+                self.picture(*section.figure, partial(section.draw, self._results.title))
+            else:
+                self.figure(*section.figure)
         self.text(section.text)
         if section.table is not None:
             self.table(*section.table, digits=section.digits)
@@ -272,6 +276,15 @@ class Results:
         """A picture `name`.svg."""
         self._put(f"{name}.svg", figure, of)
 
+    def draw(self, name: str, draw: Callable[[], Figure], of: str = "a picture") -> bool:
+        """A picture `name`.svg that a function draws; False and a warning without matplotlib."""
+        if find_spec("matplotlib") is None:
+            missing = not_installed("the results have no pictures: drawing needs matplotlib", "matplotlib")
+            warnings.warn(str(missing), stacklevel=2)
+            return False
+        self.picture(name, draw(), of)
+        return True
+
     def add(self, name: str, write: Callable[[Path], Path], of: str = "a file") -> None:
         """A file that a function writes to its place."""
         self._put(name, write, of)
@@ -299,7 +312,9 @@ class Results:
         return {name: rendered(each, "svg").decode() for name, each in drawn.items() if hasattr(each, "savefig")}
 
     def figure(self, name: str) -> Figure:
-        """The figure of a picture."""
+        """The figure of a picture; an error without matplotlib."""
+        if f"{name}.svg" not in self._files:
+            raise not_installed("drawing needs matplotlib", "matplotlib")
         figure: Figure = self._files[f"{name}.svg"].content  # type: ignore[assignment] # of a picture
         return figure
 

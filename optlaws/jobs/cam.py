@@ -99,7 +99,7 @@ def run(results: Results) -> None:
     """Put the cam's page, data, table, pictures and files into results."""
     result = read(results.entries, results.file)
     title = results.title = result.spec.title
-    page = results.page("cam").text(result.spec.text).picture("cam", title, result.drawn(title))
+    page = results.page("cam").text(result.spec.text).picture("cam", title, partial(result.drawn, title))
     for section in result.sections:
         page.section(section)
     results.data("cam.json", result.data)

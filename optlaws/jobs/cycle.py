@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
@@ -33,6 +34,8 @@ from optlaws.shown.steps import step
 from optlaws.studies.problem_entries import steady
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from optlaws.cycles.axes.machine_axes import Axes, Overlap
     from optlaws.cycles.fastest_cycle import FastestCycle
     from optlaws.cycles.transitions import TransitionCam
@@ -71,8 +74,12 @@ def run(results: Results) -> None:
     results.title = spec.title
     page = results.page("cycle").text(spec.text).text("".join(slowest(fastest)))
     if len(cycles) > 1:
-        figure = figure_of(cycles.plot(), spec.title)
-        page.picture(TOGETHER, f"{spec.title}: all axes over one time", figure, "the picture of all axes")
+        page.picture(
+            TOGETHER,
+            f"{spec.title}: all axes over one time",
+            lambda: figure_of(cycles.plot(), spec.title),
+            "the picture of all axes",
+        )
     _add_interlocks(page, spec.title, cycles, overlap)
     drawn: list[Mechanism] = []
     for name, cycle in cycles.items():
@@ -88,8 +95,8 @@ def run(results: Results) -> None:
     for number, sweep in enumerate(sweeps, 1):
         axis, entry = sweep.entries.axis, sweep.entries.entry
         results.table(f"sweep_{number}", *sweep.table)
-        figure = sweep_figure(*sweep.table, title=f"{spec.title}: {axis}")
-        page.heading(f"{axis} by {entry}").picture(f"sweep_{number}", f"{axis} by {entry}", figure)
+        draw = partial(sweep_figure, *sweep.table, title=f"{spec.title}: {axis}")
+        page.heading(f"{axis} by {entry}").picture(f"sweep_{number}", f"{axis} by {entry}", draw)
         page.text(sweep.remark).table(*sweep.table)
         results.stopped = sweep.remark if sweep.stopped else results.stopped
     facts = {"unit": "SI", "axes": {name: steady(CycleReport(cycle).stored) for name, cycle in cycles.items()}}
@@ -152,13 +159,19 @@ def slowest(fastest: Mapping[str, FastestCycle]) -> list[str]:
 def _add_interlocks(page: Page, title: str, axes: Axes, overlap: Overlap | None) -> None:
     """Put what overlaps, timing diagrams and clearances on a page, where there are any."""
     if overlap is not None:
-        given = figure_of(overlap.given.plot(what="timing"), f"{title}, as it was given")
-        page.heading("Overlap").facts(overlap.summary())
-        page.picture("timing_given", f"{title}: timing diagram as it was given", given)
+        given = overlap.given
+        page.heading("Overlap").facts(overlap.summary()).picture(
+            "timing_given",
+            f"{title}: timing diagram as it was given",
+            lambda: figure_of(given.plot(what="timing"), f"{title}, as it was given"),
+        )
     if axes.rules:
-        page.picture("timing", f"{title}: timing diagram", figure_of(axes.plot(what="timing"), title))
-        clearances = figure_of(axes.plot(what="clearance"), title)
-        page.heading("Interlocks").picture("clearances", f"{title}: clearance of the interlocks", clearances)
+        page.picture("timing", f"{title}: timing diagram", lambda: figure_of(axes.plot(what="timing"), title))
+        page.heading("Interlocks").picture(
+            "clearances",
+            f"{title}: clearance of the interlocks",
+            lambda: figure_of(axes.plot(what="clearance"), title),
+        )
         page.text(_INTERLOCKS).table(*axes.report().tables[0])
 
 
@@ -167,7 +180,7 @@ def _add_axis(
 ) -> None:
     """Put an axis on a page: its motion, its motor, and its mechanism where that varies and is not `drawn` yet."""
     plain = plain_name(name)
-    page.heading(name).picture(plain, title, figure_of(cycle.plot(), title), f"axis {name}: its picture")
+    page.heading(name).picture(plain, title, lambda: figure_of(cycle.plot(), title), f"axis {name}: its picture")
     if fastest is not None:
         page.facts(fastest.summary())
         if (beside := FastestReport(fastest).beside) is not None:
@@ -175,16 +188,19 @@ def _add_axis(
     page.report(cycle.report())
     if isinstance(cycle.drive, Drive):
         caption = f"{title}, torque over speed at the motor"
-        with plot_style():
-            figure = figure_of(cycle.plot(over="speed"), caption)
-        page.picture(f"{plain}_motor", caption, figure)
+
+        def draw() -> Figure:
+            with plot_style():
+                return figure_of(cycle.plot(over="speed"), caption)
+
+        page.picture(f"{plain}_motor", caption, draw)
     mechanism = cycle.drive.mechanism if isinstance(cycle.drive, Drive) else cycle.drive
     if not isinstance(mechanism, Mechanism) or mechanism in drawn:
         return
     if mechanism.inertia_formula.names() | mechanism.load_formula.names():
         drawn.append(mechanism)
-        caption = f"{title}, the {mechanism.name}"
-        page.picture(f"{plain}_mechanism", caption, figure_of(mechanism.plot(), caption))
+        about = f"{title}, the {mechanism.name}"
+        page.picture(f"{plain}_mechanism", about, lambda: figure_of(mechanism.plot(), about))
 
 
 def _transitions(axes: Iterable[AxisEntries], cycles: Mapping[str, Cycle], file: Path) -> list[AxisTransition]:
@@ -209,8 +225,9 @@ def _add_transition(page: Page, results: Results, transition: AxisTransition, cy
     first, last = cam.master
     title = f"{axis}, {cam.kind} from {first:.6g} to {last:.6g} deg"
     results.table(name, *motion_table(cam, cam.master, rows))
-    figure = figure_of(cam.plot(cycle=cycle), f"{results.title}: {cam.kind}")
-    page.heading(title).picture(name, f"{results.title}: {title}", figure)
+    page.heading(title).picture(
+        name, f"{results.title}: {title}", lambda: figure_of(cam.plot(cycle=cycle), f"{results.title}: {cam.kind}")
+    )
     page.text(_ABOUT.format(first, last)).facts(cam.summary(), places="s")
 
 

@@ -217,17 +217,18 @@ def _add_move(page: Page, title: str, each: SoughtMove) -> None:
     name, move = plain_name(each.name), each.moves[0]
     page.heading(each.name)
     if len(each.moves) > 1:
-        page.picture(name, f"{each.name}: least time over the stroke", strokes_figure(each.moves, title))
+        page.picture(name, f"{each.name}: least time over the stroke", lambda: strokes_figure(each.moves, title))
         last = len(each.moves) - 1
         few = sorted({round(last * step / (_FEW - 1)) for step in range(_FEW)})
         page.table(HEADINGS[1:], [_line(each.name, each.moves[i])[1:] for i in few], digits=6)
         return
-    page.picture(name, f"{each.name}: the fastest motion", motion_figure(move, title)).facts(move.summary(), digits=6)
+    page.picture(name, f"{each.name}: the fastest motion", lambda: motion_figure(move, title))
+    page.facts(move.summary(), digits=6)
     if move.beside is not None:
         page.table(*move.beside.table, digits=6)
     if each.fronts:
-        figure = fronts_figure(each.fronts, title)
-        page.picture(f"{name}_front", f"{each.name}: what is least over the time", figure)
+        caption = f"{each.name}: what is least over the time"
+        page.picture(f"{name}_front", caption, lambda: fronts_figure(each.fronts, title))
     for front in each.fronts:
         page.text(_in_words(front)).table(front.headings, _points(front), digits=6)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -28,6 +28,9 @@ from optlaws.studies.problem_entries import gap, record
 from optlaws.synthesis import Functional, Problem, Solution, at_most, synthesize
 from optlaws.synthesis.problem.named_constants import named
 from optlaws.synthesis.problem.problem import from_entries
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _RESIDUAL_ROUNDING = 1e-12  # of the vibration of a step: a residual that is less is rounding
 
@@ -234,8 +237,11 @@ def run(results: Results) -> None:
     table = ReportTable(headings, [[row.get(heading) for heading in headings] for row in rows])
     results.table("table", *table)
     known = [law for law in laws if isinstance(law, Compared)]
-    figure = laws_figure(spec.title, *_panels(spec, machine, known), 100.0 * spec.vibration.spread)
-    page = results.page("table").text(spec.text).picture("figure", spec.title, figure)
+
+    def draw() -> Figure:
+        return laws_figure(spec.title, *_panels(spec, machine, known), 100.0 * spec.vibration.spread)
+
+    page = results.page("table").text(spec.text).picture("figure", spec.title, draw)
     page.section(Section("The machine's modes", table=_modes(machine, spec.machine.duration)))
     page.section(Section("Laws", table=table, text=_about(spec), digits=5))
     results.records("laws.json", "laws", {law.name: record(law.solution) for law in known if law.solution is not None})

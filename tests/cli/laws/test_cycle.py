@@ -2,6 +2,8 @@
 
 import json
 import re
+import subprocess
+import sys
 from math import cos, pi
 from pathlib import Path
 
@@ -117,3 +119,15 @@ def test_files_that_a_file_names_are_beside_it(
     capsys.readouterr()
     exit_code(["verify", "results/cycle.json"])
     assert "cannot read" not in capsys.readouterr().err
+
+
+def test_without_matplotlib_there_are_all_results_but_pictures(tmp_path: Path) -> None:
+    program = "import sys; sys.modules['matplotlib'] = None; from optlaws.cli import main; main()"
+    command = [sys.executable, "-c", program, "cycle", str(PRESS)]
+    done = subprocess.run([*command, "--out", "results"], cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert "the results have no pictures: drawing needs matplotlib: pip install matplotlib" in done.stderr
+    assert {file.name for file in (tmp_path / "results").iterdir()} == {"cycle.md", "cycle.json", "slide.csv"}
+    assert ".svg" not in (tmp_path / "results" / "cycle.md").read_text("utf-8")
+    drawn = subprocess.run([*command, "--plot", "x.svg"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (drawn.returncode, drawn.stdout) == (2, "")
+    assert drawn.stderr.splitlines()[-1].startswith("optlaws: drawing needs matplotlib: pip install")
