@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from base64 import b64encode
 from collections.abc import Sequence
+from importlib.metadata import version
 from itertools import groupby, pairwise
 from math import isfinite
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from optlaws import __version__
 from optlaws.plots.style import BLUES, GREY, WARM, one_below_the_other, rendered
 from optlaws.shown.showing import cell, table
 
@@ -94,7 +94,13 @@ def printable_page(title: object, report: Report, notes: str = "") -> str:
     head = f'<meta charset="utf-8"><title>{cell(title)}</title><style>{_PRINTED}</style>'
     said = [f"<p>{cell(line)}</p>" for line in notes.splitlines()]
     body = "".join(
-        [f"<h1>{cell(title)}</h1><p>optlaws {__version__}</p>", *said, report.facts._repr_html_(), *tables, *pictures]
+        [
+            f"<h1>{cell(title)}</h1><p>optlaws {version('optlaws')}</p>",
+            *said,
+            report.facts._repr_html_(),
+            *tables,
+            *pictures,
+        ]
     )
     return f'<!doctype html>\n<html lang="en"><head>{head}</head><body>{body}</body></html>\n'
 

@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -44,7 +45,7 @@ def test_numbers_are_those_of_the_laws() -> None:
 
 
 def test_a_mass_has_its_force_and_power_and_the_picture_the_units_of_the_machine() -> None:
-    moved = {"stroke": "35 mm", "duration": "0.1 s"}
+    moved: dict[str, Any] = {"stroke": "35 mm", "duration": "0.1 s"}
     comparison = compare_laws(catalogue["modified sine"], **moved, mass="2 kg")
     (row,) = comparison.rows
     segments = [Rise("35 mm", "0.1 s", law="modified sine"), Dwell("0.1 s"), Return(duration="0.1 s")]

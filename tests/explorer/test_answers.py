@@ -504,7 +504,7 @@ def test_the_page_offers_files_that_there_are_of_its_view(view: str) -> None:
 
 def part_of(state: dict[str, Any]) -> dict[str, Any]:
     """The machine of a state, the moves, or the part that has the name of its view."""
-    found: dict[str, Any] = state.get(state["view"], state.get("machine"))
+    found: dict[str, Any] = state[state["view"] if state["view"] in state else "machine"]
     return found
 
 

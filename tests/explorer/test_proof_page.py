@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from optlaws import Chebyshev, Problem, synthesize
+from optlaws import Chebyshev, FastestMove, Problem, synthesize
 from tests.explorer.talk import Server
 from tests.explorer.test_page import go, settle
 from tests.internals.explorer import CycleRequest, cycle_view, example, fastest_view
@@ -83,5 +83,6 @@ def test_proofs_of_a_motion_are_those_of_its_laws(served: Server) -> None:
     question = {"kind": "proof", "view": "fastest", "request": moves}
     stored = json.loads(served.ask("save", question)["text"])
     least = fastest_view.fastest_of(CycleRequest(**moves))
+    assert isinstance(least, FastestMove)
     assert stored["duration"] == least.duration
     assert stored["proofs"] == json.loads(json.dumps(least.to_dict()["proofs"]))

@@ -100,7 +100,8 @@ def test_files_that_a_file_names_are_beside_it(
 ) -> None:
     """Its results and exports are those of the law, and need the law's file no more."""
     drawing, elsewhere = tmp_path / "drawing", tmp_path / "elsewhere"
-    drawing.mkdir(), elsewhere.mkdir()
+    drawing.mkdir()
+    elsewhere.mkdir()
     (drawing / "better.json").write_text(catalogue["modified sine"].law.to_json(), "utf-8")
     rows = [f"{k / 64};{catalogue['modified sine'].law.a(k / 64)!r}\n" for k in range(65)]
     (drawing / "old.csv").write_text("".join(rows), "utf-8")
@@ -115,7 +116,8 @@ def test_files_that_a_file_names_are_beside_it(
     assert data["axes"]["slide"]["segments"][0]["velocity"] == pytest.approx(0.35 * 1.759603, rel=5e-3)
     (shown,) = start("../drawing/press.toml")["cycle"]["axis"]
     assert shown["segment"][0]["law"].startswith("{")
-    (drawing / "better.json").unlink(), (drawing / "old.csv").unlink()
+    (drawing / "better.json").unlink()
+    (drawing / "old.csv").unlink()
     capsys.readouterr()
     exit_code(["verify", "results/cycle.json"])
     assert "cannot read" not in capsys.readouterr().err

@@ -1,5 +1,7 @@
 """Bounds at a constant's own least value leave hardly any room: the law must keep them all the same."""
 
+from typing import Any
+
 import pytest
 
 from optlaws import Basis, BSplines, Chebyshev, InfeasibleProblem, Pieces, Problem, at_most, rms, synthesize
@@ -31,7 +33,12 @@ def test_a_search_ends_where_no_step_keeps_more_of_the_rows(monkeypatch: pytest.
     """From every start some quadratic programs show it; all rounds of them took minutes, for nothing."""
     counted: list[object] = []
     solve = quadratic_steps.conic_optimum
-    monkeypatch.setattr(quadratic_steps, "conic_optimum", lambda *a, **k: [counted.append(a), solve(*a, **k)][1])
+
+    def counting(*arguments: Any, **options: Any) -> Any:
+        counted.append(arguments)
+        return solve(*arguments, **options)
+
+    monkeypatch.setattr(quadratic_steps, "conic_optimum", counting)
     kinked = rms("max(1.1*c + 0.5, 0.9*c + 0.5)")
     assert synthesize(Problem(order=3, minimise=kinked, C=at_most(4.8), monotone=True)).objective < 4.0
     with pytest.raises(InfeasibleProblem, match=r"C = 4\.3 everywhere"):
