@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations_with_replacement, pairwise
-from math import isfinite, sqrt
+from math import asin, cos, isfinite, pi, sin, sqrt
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -23,6 +23,7 @@ from optlaws.cams.curves.motion_by_angle import as_motion
 from optlaws.cams.disc import DiscCam, Turning, sense
 from optlaws.cams.followers.contact import CURVATURE, PRESSURE, FollowerContact, LinearLimit
 from optlaws.cams.followers.follower import CamFollower, Place, shown
+from optlaws.cams.followers.rollers import SlidingRoller
 from optlaws.cams.least_sizes import CamLimits, LeastPrimeCircle, least_prime_circle
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
@@ -160,7 +161,7 @@ def best_cam(
     if limits.proven(given.extremes):  # the best laws without the limits keep them
         bound = _total(cycle, known)
         return BestCam(given, cycle.objective, bound, cycle.status, cycle.solutions)
-    _refuse_radius_at_rest(cycle, given, limits.radius)
+    _refuse_radius_of_no_law(cycle, given, limits.radius)
     inner = _solved(cycle, given, limits.in_si, below=True)
     outer = _solved(cycle, given, limits.in_si, below=False) if not given.contact.linear else inner
     inner, outer = _with_curvature(cycle, given, limits.radius, inner, outer)
@@ -345,16 +346,21 @@ def _solved(cycle: Cycle, cam: DiscCam, limits: dict[str, float], *, below: bool
     return solved
 
 
-def _refuse_radius_at_rest(cycle: Cycle, cam: DiscCam, radius: float | None) -> None:
-    """Refuse a least radius in m that the profile has not where the follower rests, whatever the law."""
+def _refuse_radius_of_no_law(cycle: Cycle, cam: DiscCam, radius: float | None) -> None:
+    """Refuse a least radius in m that no law gives the profile, as far as ends of the motions say so."""
     for piece, solution, _ in _with_solutions(cycle):
         curvature = None if radius is None else curvature_of(piece, cam.contact, radius, cycle.duration)
-        rest = None if solution is None or curvature is None else curvature.at_rest()
-        if rest is not None and solution is not None:
+        if solution is None or curvature is None:
+            continue
+        why, rest = "", curvature.at_rest()
+        if rest is not None:
+            why = f"where the follower rests the profile has {shown(rest - cam.contact.roller)}, whatever the law"
+        elif curvature.is_out_of_reach():
+            why = "no path that bends so little goes so far out in so short a turn"
+        if why:
             raise InfeasibleProblem(
-                f"no law from {piece.start:.6g} s on keeps the least radius of curvature: where the follower rests the "
-                f"profile has {shown(rest - cam.contact.roller)}, whatever the law: make the prime circle larger, or "
-                "the least radius smaller",
+                f"no law from {piece.start:.6g} s on keeps the least radius of curvature: {why}: make the prime circle "
+                "larger, the least radius smaller, or the motion longer",
                 problem=solution.problem,
             )
 
@@ -507,6 +513,26 @@ class RollerCurvature:
             if 0.0 < radius * (1.0 + _PLANE_SLACK) < self.radius:
                 return radius
         return None
+
+    def is_out_of_reach(self) -> bool:
+        """Whether no path that bends so little reaches the piece's nearer end from rest at the farther one.
+
+        With r from the centre and p that of the tangent, dp/dr is r times the curvature: back from the rest, where p is
+        r, no path between the ends falls faster over the angle than the circle of the least radius that touches there.
+        Known of a slide whose way meets the cam's axis, whose pitch curve runs around it with the cam's angle.
+        """
+        piece, contact, radius = self.piece, self.contact, self.radius
+        angle, rest = TURN * piece.duration / self.period, 1.0 if piece.stroke > 0.0 else 0.0
+        centred = isinstance(contact, SlidingRoller) and contact.offset == 0.0
+        if not centred or angle >= pi or abs(float(piece.law.b(rest))) > _PLANE_SLACK:
+            return False
+        shift = contact.level - contact.lowest + piece.offset
+        near, far = sorted(shift + piece.stroke * float(piece.law.a(k)) for k in (0.0, 1.0))
+        centre = far - radius
+        if centre <= 0.0 or (centre > radius and angle >= asin(radius / centre)):
+            return False
+        reached = centre * cos(angle) + sqrt(radius**2 - (centre * sin(angle)) ** 2)
+        return reached > near * (1.0 + _PLANE_SLACK)
 
     def planes(self, k: Sequence[float], a: Sequence[Pair], b: Sequence[Pair]) -> list[Window]:
         """Planes that are nowhere above G, one for each part of the time, while a and b stay in their ranges there."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -118,6 +119,35 @@ def test_a_curvature_that_no_law_has_at_rest_is_refused_before_any_search(monkey
     monkeypatch.setattr("optlaws.cams.best_laws.synthesize", lambda *_, **__: pytest.fail("it was sought"))
     with pytest.raises(InfeasibleProblem, match=r"the profile has 17 mm, whatever the law: make the prime circle"):
         best_cam(sharp, "25 mm", TranslatingRoller("8 mm"), radius_of_curvature="20 mm")
+
+
+@pytest.mark.parametrize(
+    ("rise", "radius", "reason"), [("40 deg", "24 mm", "so short a turn"), ("60 deg", "12 mm", "")]
+)
+def test_a_path_that_bends_too_little_for_its_turn_is_refused(rise: str, radius: str, reason: str) -> None:
+    cycle = Cycle([Rise("35 mm", rise), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()], speed="200 rpm")
+    given: Any = {"radius_of_curvature": radius}
+    if reason:
+        with pytest.raises(InfeasibleProblem, match=reason):
+            best_cam(cycle, "30 mm", TranslatingRoller("5 mm"), **given)
+    else:
+        assert best_cam(cycle, "30 mm", TranslatingRoller("5 mm"), **given).status is Status.OPTIMAL
+
+
+@pytest.mark.sample(3)
+@pytest.mark.parametrize("turn", [20.0, 45.0, 90.0, 150.0])
+def test_an_arc_of_the_least_radius_is_just_in_reach(turn: float) -> None:
+    """Between two dwells the arc that touches the outer one ends on a radius; a smaller inner one is out of reach."""
+    far, bend = 0.065, 0.045
+    centre, angle = far - bend, np.radians(turn)
+    least = float(centre * np.cos(angle) + np.sqrt(bend**2 - (centre * np.sin(angle)) ** 2))
+    for near, out in ((least * (1.0 + 1e-6), False), (least * (1.0 - 1e-6), True)):
+        moves = [Rise(f"{1e3 * (far - near)!r} mm", f"{turn} deg", law="cycloidal"), Dwell("90 deg"), Return(law="345")]
+        cycle = Cycle(moves, period="1 s")
+        contact = DiscCam(cycle, f"{1e3 * near!r} mm", TranslatingRoller("5 mm")).contact
+        limit = curvature_of(cycle.pieces[0], contact, bend - 0.005, cycle.duration)
+        assert limit is not None
+        assert limit.is_out_of_reach() is out
 
 
 def test_a_curvature_that_the_laws_have_costs_nothing() -> None:
