@@ -202,11 +202,18 @@ def progress() -> Console:
 
 @contextmanager
 def busy(text: str) -> Iterator[None]:
-    """Say on stderr what is being done: on a terminal in a line that changes, else in one every ten seconds."""
+    """Say on stderr what is being done: on a terminal in a line that changes, else in one every ten seconds.
+
+    What is done within it has the same line.
+    """
     from threading import Event, Thread
 
-    from optlaws.shown.steps import shown_by
+    from optlaws.shown.steps import shown_by, step, watches
 
+    if watches():
+        step(text.removeprefix("optlaws: "))
+        yield
+        return
     ended, latest = Event(), [text]
 
     def watcher(step: str, stays: bool) -> None:  # noqa: FBT001 - as all watchers

@@ -24,10 +24,15 @@ _watcher: Watcher | None = None
 
 def watched() -> bool:
     """Whether someone sees a bar: stderr is a terminal, or this is a notebook that can show one."""
-    if _watcher is not None or current_thread() is not main_thread():
+    if watches() or current_thread() is not main_thread():
         return False
     notebook = "ipykernel" in sys.modules and find_spec("ipywidgets") is not None
     return notebook or (sys.stderr is not None and sys.stderr.isatty())
+
+
+def watches() -> bool:
+    """Whether a command shows the steps of its work."""
+    return _watcher is not None
 
 
 @contextmanager

@@ -108,6 +108,11 @@ def test_a_command_that_takes_long_says_what_it_is_doing(
     before = said.getvalue()
     sleep(0.05)
     assert said.getvalue() == before
+    with output.busy("optlaws cycle"), output.busy("optlaws: table.toml"):
+        while "optlaws cycle: table.toml" not in said.getvalue():
+            sleep(0.01)
+    assert "optlaws: table.toml" not in said.getvalue()
+    before = said.getvalue()
     monkeypatch.setattr(output, "PATIENCE", 60.0)
     monkeypatch.setattr(output, "BETWEEN_LINES", 60.0)
     with output.busy("quick"):
