@@ -122,7 +122,7 @@ def sizes(request: CycleRequest) -> dict[str, Any]:
     result = result_of(CycleRequest(study=others | {"title": "a cam"}))
     parts = result.differences, result.laws, result.sizes
     facts = [each for part in parts for each in fact_sentences(part.facts, part.digits)]
-    return {"facts": [*facts, *([result.sizes.note] if result.sizes.note else [])]}
+    return {"facts": [*facts, *(part.note for part in (result.differences, result.sizes) if part.note)]}
 
 
 def example() -> dict[str, Any]:

@@ -77,7 +77,7 @@ def answer(request: CycleRequest) -> dict[str, Any]:
         "table": table_data(report.tables[0]),
         "beside": None if report.beside is None else table_data(report.beside.table),
         "trust": trust(shown),
-        "facts": fact_sentences([*drive_rows(shown), *joint_rows(shown)]),
+        "facts": fact_sentences([*drive_rows(shown), *joint_rows(shown), *report.worse]),
     }
 
 

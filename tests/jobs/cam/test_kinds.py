@@ -340,5 +340,8 @@ def test_a_page_says_that_modified_sine_is_better_in_the_objective(tmp_path: Pat
     text = STARTERS["cam"].text(numbers, tmp_path / "cam.toml").replace("animation = true", "")
     page, _, _ = done(tmp_path, text.replace("degree = 15", "degree = 9"))
     (usual, chosen) = (float(cell) for cell in page.split("| peak power")[1].split("|")[1:3])
-    assert f"Modified sine has {100.0 * (1.0 - usual / chosen):.1f} % less peak power than these laws: " in page
+    remark = f"Modified sine has {100.0 * (1.0 - usual / chosen):.1f} % less peak power than these laws: "
+    assert remark in page
     assert chosen > usual
+    study = {**reading.toml(tmp_path / "small.toml")}
+    assert cam_view.sizes(CycleRequest(study=study))["facts"][-1].startswith(remark)
