@@ -34,12 +34,15 @@ def _at_most(name: str, option: str) -> dict[str, Any]:
     return {"name": option, "about": f"{name} at most this.", "read": lambda high: as_range((None, high), name)}
 
 
+#: of laws whose ends are not given: those of problem files of moves and cycles
+_ORDER = 3
 #: options that have names of their own, or mean less than files can say
 _OWN: dict[str, dict[str, Any]] = {
     "B": {"name": "--peak-velocity", "about": "B, above 1 (dimensionless; the mean velocity is 1); free unless given."},
     "C": _at_most("C", "--most-acceleration"),
     "D": _at_most("D", "--most-power"),
     "J": _at_most("J", "--most-jerk"),
+    "order": {"about": f"Conditions at each end; {_ORDER} unless given, or as many as --start and --end have."},
     "symmetric": {
         "name": "--unsymmetric",
         "about": "Seek among unsymmetric laws too.",
@@ -91,6 +94,8 @@ class _ProblemOptions(Options):
                 raise InputError(f"{first.name} is not for this command: {self._refused[entry.name]}")
             bounds = [value or [] for value in values.values()]
             entries[entry.name] = read_bounds(*bounds) if len(bounds) > 1 else first.value(values[first])
+        if not {"order", "start", "end"} & entries.keys():
+            entries["order"] = _ORDER
         return entries | ({"symmetric": False} if _is_unsymmetric(entries) else {})
 
 

@@ -1,6 +1,7 @@
 """One table of a problem's entries: every door takes every entry, or says why not; errors name the entry."""
 
 import dataclasses
+import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -206,7 +207,6 @@ def test_the_commands_tell_of_misspelt_options(name: str, capsys: pytest.Capture
 @pytest.mark.parametrize(
     ("options", "says"),
     [
-        (["--degree", "5"], "the problem lacks order, the number of conditions at each end: give order=4"),
         (["--degree", "5", "--start", "0,0"], "as many values at the start as at the end, at least one; got 2 and 0"),
         (["--degree", "5", "--start", "0,x", "--end", "1,0"], "start and end are numbers"),
         (["--degree", "5", "--order", "4", "--window", "b < 1"], "a window is written as"),
@@ -293,3 +293,11 @@ def test_a_study_takes_a_basis_of_ones_own() -> None:
 def test_a_sweep_over_numbers_of_pieces(caught: list[Problem]) -> None:
     studied({"problem": {"order": 3, "basis": "bsplines", "degree": 3}, "vary": {"breaks": [4, [0, 0.5, 1]]}}, caught)
     assert caught[0].basis == BSplines(4, 3)
+
+
+def test_the_order_is_3_unless_it_or_the_ends_are_given(capsys: pytest.CaptureFixture[str]) -> None:
+    objectives = []
+    for options in ([], ["--order", "3"], ["--start", "0, 0.5", "--end", "1, 0.5"]):
+        assert exit_code(["solve", "--degree", "3", "--peak-velocity", "1.6", *options, "--json"]) == 0
+        objectives.append(json.loads(capsys.readouterr().out)["objective"])
+    assert objectives[0] == objectives[1] > objectives[2]
