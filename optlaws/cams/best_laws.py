@@ -170,8 +170,8 @@ def best_cam(
     if broken := limits.broken(cam.extremes):
         raise SolverFailure(
             sentence(
-                "the best laws go beyond limits that are not convex in them: {}; what a dwell or a given law has no "
-                "other law can mend: make the prime circle larger, or drop a limit",
+                "the best laws go beyond limits that are not convex in them: {}; no law sought changes what "
+                "exceeds them in a dwell or under a given law: make the prime circle larger, or drop a limit",
                 joined("; ", broken.values()),
             )
         )
@@ -246,7 +246,9 @@ def best_prime_circle(
     limits = CamLimits(pressure_angle, radius_of_curvature).of_one().in_si
     limit = follower.sizing_limit
     if limit is None:
-        raise InputError("follower: the least prime circle of all laws is known of rollers and flat faces on slides")
+        raise InputError(
+            "follower: the least prime circle of all laws is computed for rollers and flat faces on slides alone"
+        )
     contact = _unit_contact(cycle, follower, sense(turning))
     if limit not in limits:
         raise InputError(f"the least prime circle of all laws under this follower takes the limit {_NAMED[limit]}")

@@ -52,7 +52,7 @@ def barrel_values(cam: BarrelCam, rate: float) -> Values:
     steep = max(abs(extreme.value) for extreme in cam.pressure_angles)
     return _peaks(cam.displacement, rate) | {
         "greatest pressure angle at the bottom": (degrees(steep), "deg"),
-        "least way of a flank a radian": (MILLI * cam.margin.value, "mm"),
+        "least travel of a flank per radian": (MILLI * cam.margin.value, "mm"),
     }
 
 

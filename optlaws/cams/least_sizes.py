@@ -57,7 +57,7 @@ class CamLimits(Declared, title="limits of a cam"):
     )
     radius_of_curvature: NumberOrQuantity | None = entry(
         Measured("length", least=0.0),
-        "The least radius of curvature of the profile where it bulges.",
+        "The least radius of curvature of the profile where it is convex.",
         default=None,
         label="radius ≥",
         example="15 mm",

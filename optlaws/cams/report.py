@@ -151,7 +151,7 @@ class CamReport:
             f"{base:.{DIGITS}g} mm.\n\nUndercut: {self.cam.extremes.undercut}.",
             facts=self.extremes,
             table=self.tables[0],
-            note="\n".join(f"Beyond what is allowed: {broken}." for broken in self.beyond),
+            note="\n".join(f"Limits exceeded: {broken}." for broken in self.beyond),
             data=self.data,
             digits=DIGITS,
         )
@@ -300,7 +300,7 @@ def barrel_section(cam: BarrelCam) -> Section:
     facts = [
         extreme_row("pressure angle at the bottom, least", least, "deg"),
         extreme_row("pressure angle at the bottom, greatest", greatest, "deg"),
-        extreme_row("way of a flank a radian, least", cam.margin, "mm"),
+        extreme_row("travel of a flank per radian, least", cam.margin, "mm"),
     ]
     data = {
         "pressure_angles": signed_angles((least, greatest)),

@@ -316,7 +316,9 @@ class Plan(Solved, CycleAnswers, Declared, title="a plan"):
     True
     """
 
-    specification: Cycle = entry(ValueOf(Cycle), "What is asked; its entries are those of the plan too.", name="cycle")
+    specification: Cycle = entry(
+        ValueOf(Cycle), "The cycle that was specified; the plan has its entries too.", name="cycle"
+    )
     solutions: Sequence[Solution] = entry(  # type: ignore[assignment] # the field in place of the answer
         Listed(ValueOf(Solution)), "Of each motion without a given law, in order, with its proof.", default=()
     )

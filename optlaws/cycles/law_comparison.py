@@ -161,7 +161,7 @@ def compare_laws(
     (7.539822, 9.424778)
     """
     if not laws:
-        raise InputError("there is nothing to compare: name laws, such as 'modified sine' and 'law.json'")
+        raise InputError("no laws to compare are given: name some, such as 'modified sine' and 'law.json'")
     if (duration is None and stroke is not None) or (stroke is None and duration is not None and frequency is None):
         raise InputError("stroke and duration go together: the peaks in the machine need both")
     kind, height = ("length", None) if stroke is None else either(stroke, ("length", "angle"), "stroke")

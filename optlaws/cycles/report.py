@@ -474,8 +474,8 @@ def load_work_rows(plan: Solved) -> list[Row]:
         )
     elif back > _BOTH_WAYS * against:
         text = (
-            f"the load gives back {back:.4g} J of the {against:.4g} J that it takes in a cycle: it acts on the way "
-            "back too; a process force that acts on one way alone is given over the time or the master"
+            f"the load gives back {back:.4g} J of the {against:.4g} J that it takes in a cycle: it acts during the "
+            "return too; give a process force that acts in one direction alone over the time or the master"
         )
     else:
         return [row]

@@ -504,7 +504,7 @@ def _heading(table: FrontTable, about: str) -> list[str]:
     ]
     beyond = [end for end, proven in zip(("first", "last"), table.ends, strict=True) if not proven]
     return lines + [
-        f"AT_END: beyond the {end} law there may be better ones, which the front does not hold" for end in beyond
+        f"AT_END: beyond the {end} law there may be better ones, which the front does not contain" for end in beyond
     ]
 
 

@@ -210,7 +210,7 @@ def fitted(motion: Motion, degree: int, most: int, count: int | None = None, *, 
     """
     sections = _sections(motion, degree)
     if len(sections) > (most if count is None else count):
-        request = f"and the target holds {most}" if count is None else f"more than the {count} that were asked for"
+        request = f"and the target holds {most}" if count is None else f"more than the {count} that were requested"
         raise InputError(f"the motion has {len(sections)} pieces of its own, {request}: export its parts")
     approximated = [section for section in sections if section.powers is None]
     peak = motion.peak(2) if approximated else 0.0
@@ -234,7 +234,7 @@ def fitted(motion: Motion, degree: int, most: int, count: int | None = None, *, 
     if worst and count is None and worst[0][0] < -1.0:
         raise InputError(
             "the pieces that the target holds do not bring the acceleration within a thousandth of its peak: say how "
-            "many to take all the same (points=...), or export parts"
+            "many to use in any case (points=...), or export parts"
         )
     joined = _fit(motion, sections)
     if joined.count > most:
@@ -311,7 +311,7 @@ def jumps_of_single(motion: Motion, run: PiecewiseMotion) -> tuple[tuple[float, 
     """The greatest jumps of velocity, acceleration and jerk that REAL32 makes where polynomials meet, and in words."""
     jumps, units = tuple(2.0 * bound for bound in error_bounds(run, SINGLE)[1:]), labels_of(motion)
     words = ", ".join(f"{rounded_up(jump)} {units.unit(nu)}" for nu, jump in enumerate(jumps, start=1))
-    return jumps, f"jumps at joints by at most {words} are roundings of REAL32"
+    return jumps, f"jumps at joints by at most {words} come from the rounding to REAL32"
 
 
 class Ends(NamedTuple):

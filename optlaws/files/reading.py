@@ -282,7 +282,7 @@ def checked(data: Any, name: str) -> Any:
     --------
     >>> checked({"B": [1, 10**400]}, "the study")
     Traceback (most recent call last):
-    optlaws.errors.InputError: the study holds an integer of 1329 bits, beyond all floats
+    optlaws.errors.InputError: the study holds an integer of 1329 bits, outside the range of floating-point numbers
     """
     level = [data]
     for _ in range(DEEPEST):
@@ -303,7 +303,7 @@ def checked(data: Any, name: str) -> Any:
 
 def _check_leaf(value: object, name: str) -> None:
     if isinstance(value, int) and value.bit_length() > _MOST_BITS:
-        raise InputError(f"{name} holds {shortened(value)}, beyond all floats")
+        raise InputError(f"{name} holds {shortened(value)}, outside the range of floating-point numbers")
     if isinstance(value, str) and not storable(value):
         raise InputError(f"{name} holds text with NUL or surrogates: {shortened(value)}")
 

@@ -220,7 +220,7 @@ def _refused(files: Sequence[Path]) -> InputError:
     more = f" and {len(files) - _NAMED} more" if len(files) > _NAMED else ""
     named = ", ".join(str(file) for file in files[:_NAMED]) + more
     return InputError(
-        f"there is {named} with other contents, and nothing is written over them: --force, or force=True in Python, "
+        f"there is {named} with other contents, which are not overwritten: --force, or force=True in Python, "
         "replaces them; or choose another place"
     )
 

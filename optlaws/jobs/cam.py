@@ -478,7 +478,7 @@ class CamResult:
         if given.irregularity is not None:
             sections.append(_energy_section(energy_fluctuation(forces), given.irregularity))
         if self.cam.extremes.undercut.status == UNDERCUT:
-            doubt = "That is so if the follower moves as asked, which it cannot on a cam that is undercut."
+            doubt = "These forces assume the motion as specified, which an undercut cam cannot give."
             sections.append(Section(note=doubt))
         return tuple(sections)
 

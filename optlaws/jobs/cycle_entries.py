@@ -169,7 +169,9 @@ class CycleProblemFile(ProblemFile, title="a problem file"):
         if self.fastest and self.overlap is not None:
             raise InputError("fastest and overlap are two ways to a period: give one of them")
         if len(names) > 1 and self.interlocks and "interlocks" in names:
-            raise InputError("an axis is called interlocks, as what is known of them is: give it another name")
+            raise InputError(
+                "an axis is called interlocks, which is the name of an entry of the results: give it another name"
+            )
 
     def overlap_of(self, axes: Axes, file: Path) -> Overlap | None:
         """The overlap of its axes; None where it has no such entry. An error names the file."""

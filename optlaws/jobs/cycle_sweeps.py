@@ -74,7 +74,7 @@ class Sweep(NamedTuple):
         added = ", ".join(row.name for row in self.rows if row.value not in given)
         between = f" Added between the values that are given: {added}." if added else ""
         at_end = best in (self.rows[0], self.rows[-1]) and not self.stopped and not isnan(_number(best.value)[0])
-        beyond = " It is the last of the values: there may be less beyond it." if at_end else ""
+        beyond = " It is the last of the values: values outside the range may give less." if at_end else ""
         return f"{stop}The {_with_unit(best.cycle)}, is at {entry} = {best.name}.{between}{beyond}"
 
     @property

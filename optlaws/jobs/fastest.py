@@ -65,7 +65,9 @@ class MoveEntries(Declared, title="a move"):
         _STROKE, "Where the input of the mechanism begins, 0 unless given.", default=None, example="0 deg"
     )
     follower: VibratingFollower | None = entry(ValueOf(VibratingFollower), "What vibrates.", default=None)
-    front: FrontOverTime | None = entry(ValueOf(FrontOverTime), "What is least over the time.", default=None)
+    front: FrontOverTime | None = entry(
+        ValueOf(FrontOverTime), "The quantity that is minimised over the time.", default=None
+    )
 
 
 @declared
@@ -227,7 +229,7 @@ def _add_move(page: Page, title: str, each: SoughtMove) -> None:
     if move.beside is not None:
         page.table(*move.beside.table, digits=6)
     if each.fronts:
-        caption = f"{each.name}: what is least over the time"
+        caption = f"{each.name}: the minimised quantity over the time"
         page.picture(f"{name}_front", caption, lambda: fronts_figure(each.fronts, title))
     for front in each.fronts:
         page.text(_in_words(front)).table(front.headings, _points(front), digits=6)

@@ -147,7 +147,7 @@ class Vibration(Declared, title="a vibration"):
     output: str = entry(Text(), _OUTPUT, example="sway")
     modes: tuple[int, ...] = entry(Listed(Whole(1), least=1, most=4), "By their numbers.", default=(1,))
     shaped: int = entry(Whole(1), "The mode that laws are shaped for.", default=1)
-    spread: float = entry(SPREAD, "The share by which frequencies may be off.", default=0.1)
+    spread: float = entry(SPREAD, "The relative deviation of frequencies that is allowed for.", default=0.1)
 
 
 @declared
@@ -298,8 +298,10 @@ def _about(spec: MachineLawsProblemFile) -> str:
             f"{stroke / duration**3:.6g}, in units of the stroke and seconds"
         )
     return (
-        f"C and J are dimensionless{units}. What is left of a mode is its amplitude in {output!r}{unit} after the "
-        "motion, with all frequencies as they are and off by the share that is named. A law without a finite J has "
+        f"C and J are dimensionless{units}. The residual vibration of a mode is its amplitude in "
+        f"{output!r}{unit} after the "
+        "motion, with the stated frequencies, and with all of them off by the share in brackets. A "
+        "law without a finite J has "
         "jumps of c."
     )
 

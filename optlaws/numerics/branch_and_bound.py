@@ -305,7 +305,7 @@ class _Search:
         """The extremes and their bounds when the search ends; the first places of them and nearer ones, if sought."""
         if not np.isfinite([self.least, self.most]).all():
             raise SolverFailure(
-                "a function has no finite value where it is looked at: nothing is known of its extremes"
+                "a function has no finite value at a place where it was evaluated: its extremes cannot be enclosed"
             )
         known = yield from self._lowest(TIE, edges=places)
         least, most = (yield from self._first_of_equals(known)) if polished and places else known

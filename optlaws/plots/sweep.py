@@ -67,7 +67,7 @@ def points_figure(study: Iterable[Any], place: str, title: str) -> Figure:
     """
     solved = [point for point in study if point.objective is not None]
     if not solved:
-        raise InputError(f"{place} has no point with a law yet: there is nothing to draw")
+        raise InputError(f"{place} has no point with a law yet, so there is no picture")
     solved = solved[:: -(-len(solved) // _DRAWN)]
     entries = {entry: [point.inputs[entry] for point in solved] for entry in solved[0].inputs}
     objective, *peaks = (

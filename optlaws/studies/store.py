@@ -303,7 +303,7 @@ class StudyDirectory:
             return self.lock.open("a+b")
         except OSError as error:
             raise InputError(
-                f"{self.path} cannot be written: {error.strerror}; a study there can be read and asked for its status, "
+                f"{self.path} cannot be written: {error.strerror}; a study there can be read, and its status shown, "
                 "not run"
             ) from None
 

@@ -408,7 +408,7 @@ class _Curve:
         pays = value_of(best, over[0])
         if low >= pays * (1.0 - AGREEMENT):
             raise InputError(
-                f"{over[1]} is least at {over[0]} = {pays:.7g}: nothing is exchanged above, got {shortened(between)}"
+                f"{over[1]} is least at {over[0]} = {pays:.7g}: there is no exchange above it, got {shortened(between)}"
             )
         self.points = [self._first(low, pays), self._last(best, pays, high)]
 

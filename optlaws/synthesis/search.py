@@ -179,7 +179,7 @@ class LawSearch:
             f"no law with {constant!r} at least {low:g} was found; without that, its {constant!r} is "
             f"{constant.value(plain.law):.7g}",
             problem=self.problem,
-            tried="every extremum was held up, step by step, and the peak was asked at one place after the other",
+            tried="every extremum was bounded from below step by step, with its peak at one place after another",
         )
 
     def _moved(self, plain: Candidate, best: Candidate, constant: Functional, low: float) -> Candidate:

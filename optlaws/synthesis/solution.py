@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from optlaws.synthesis.limits.drive_limits import DriveLimit
 
 _MAY_TURN_BACK = (
-    "of laws that may turn back nothing is proven here: with monotone=True, for laws that never turn back, what no law "
-    "of any degree can beat is known"
+    "there is no proof here for laws that may turn back: with monotone=True, for laws that never turn back, the best "
+    "possible of all degrees is known"
 )
 
 

@@ -87,7 +87,7 @@ class Status(StrEnum):
             Status.LOCAL: "No better law was found from any start; the gap says how much better one could be.",
             Status.INACCURATE: "The law is sound but the bound does not meet it; change the degree a little.",
             Status.INFEASIBLE: "No law of this problem exists, and a proof shows it; loosen a bound.",
-            Status.FAILED: "No law was found and none is known not to exist; change the degree, or loosen a bound.",
+            Status.FAILED: "No law was found, and no proof that none exists; change the degree, or loosen a bound.",
             Status.INVALID: "The entries make no problem; the error states which and why.",
             Status.TIME_LIMIT: "The point took longer than the study's time limit; raise it, or lower the degree.",
             Status.DIED: "The process ended, mostly for want of memory; solve the point by itself.",

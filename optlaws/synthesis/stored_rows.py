@@ -262,7 +262,7 @@ def read_error(row: StatedError, problem: Callable[[], Problem]) -> OptlawsError
         return InfeasibleProblem(row.error, problem=problem(), tried=row.tried)
     proof = proof_of_no_law(problem(), Certificate.from_dict(row.proof))
     if proof is None:
-        raise InputError("it states that no law exists, but its proof does not prove this for its problem")
+        raise InputError("it states that no law exists, but its proof does not show this for its problem")
     return InfeasibleProblem(row.error, problem=problem(), tried=row.tried, proof=proof)
 
 

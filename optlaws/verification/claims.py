@@ -158,7 +158,7 @@ def _laws(swept: SweptParameter, known: list[_Known]) -> Claim:
     wrong = [(point, excess) for point in known for excess in point.excesses if not excess.holds]
     if not wrong:
         worst = max((excess.by for point in known for excess in point.excesses), default=0.0)
-        detail = f"{len(known)} keep every condition, off by at most {max(worst, 0.0):.1e}"
+        detail = f"{len(known)} meet every condition, greatest deviation {max(worst, 0.0):.1e}"
         return Claim("laws", proven=True, detail=detail)
     point, excess = wrong[0]
     broken = len({point.at for point, _ in wrong})
@@ -275,7 +275,9 @@ def _time_front(data: Data) -> Verification:
     objective = built(MoveObjective.from_dict, data["minimise"], "what is least")
     durations = [number(row, "duration") for row in rows]
     ascending = bool(rows) and durations[0] >= least.duration and all(low < high for low, high in pairwise(durations))
-    detail = "they ascend, none below the least time" if ascending else "they do not ascend from the least time on"
+    detail = (
+        "they ascend, and all are at least the least time" if ascending else "they do not ascend from the least time on"
+    )
     claims = [Claim("the times of the points", ascending, detail), *every_claim(of_least)]
     for duration, row, known in zip(durations, rows, solutions, strict=True):
         of_move = with_claims(known, [*every_claim(known), *_point(least, objective, row, known)])

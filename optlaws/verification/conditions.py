@@ -93,7 +93,7 @@ def _shape(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
     """The law's degree, and where it is piecewise its breaks and how smooth it is there."""
     shape = _shape_of(problem.basis, problem.order)
     beyond = [abs(term) for piece in law.polynomials for term in piece.stored[max(shape.degree - 1, 0) :]]
-    yield _of("terms beyond the degree", arb(sum(beyond)), _size(law, 0), COEFFICIENT_ROUNDING)
+    yield _of("terms above the degree", arb(sum(beyond)), _size(law, 0), COEFFICIENT_ROUNDING)
     if len(shape.breaks) != len(law.breaks):
         detail = f"{len(law.breaks) - 1} pieces instead of {len(shape.breaks) - 1}"
         yield Excess(detail, inf, 0.0)

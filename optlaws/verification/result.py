@@ -30,8 +30,8 @@ class Claim:
 
     Examples
     --------
-    >>> print(Claim("end conditions", True, "off by at most 1e-16"))
-    proven      end conditions: off by at most 1e-16
+    >>> print(Claim("end conditions", True, "greatest deviation 1e-16"))
+    proven      end conditions: greatest deviation 1e-16
     """
 
     name: str

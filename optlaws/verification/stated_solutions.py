@@ -150,7 +150,7 @@ def solution(data: Data) -> Verification:
     others = {key: None for key in StatedSolution.__struct_fields__ if key not in stated}
     conditions = excesses(problem, law)
     claims = [
-        Claim(each.name, each.holds, f"off by at most {max(each.by, 0.0):.1e}, {each.allowed:.1e} is allowed")
+        Claim(each.name, each.holds, f"greatest deviation {max(each.by, 0.0):.1e}, {each.allowed:.1e} is allowed")
         for each in conditions
     ]
     known = Verification(
@@ -254,7 +254,7 @@ def _small(name: str, off: list[fmpq_poly], law: ExactLaw, allowed: float) -> Cl
         if least > allowed:
             return Claim(name, proven=False, detail=f"off by {least:.1e} or more, {allowed:.1e} is allowed")
         by = enclosed(law.magnitude(least_and_greatest([value for part in off for value in between(part, *_WHOLE)])))[1]
-    return Claim(name, by <= allowed, f"off by at most {by:.1e}, {allowed:.1e} is allowed")
+    return Claim(name, by <= allowed, f"greatest deviation {by:.1e}, {allowed:.1e} is allowed")
 
 
 def _beside(problem: Problem, proof_of: Certificate, proof: Proof, data: Data, key: str) -> Iterator[Claim]:
@@ -274,7 +274,7 @@ def _proof_claims(proof: Proof, proof_of: Certificate, data: Data, name: str) ->
     if proof_of.points is None and not proof_of.peak:
         yield from _leaf_claims(proof, proof_of)
     else:
-        left = "no law has" if proof.value is not None else "the steps do not show that no law has"
+        left = "no law has" if proof.value is not None else "the steps do not prove that no law has"
         yield Claim("steps", proof.value is not None, f"{left} an objective below {proof_of.claim!r}")
     if proof_of.program == VIOLATION:
         value = float(proof.value or 0)

@@ -472,7 +472,7 @@ def test_a_cycle_within_its_limits_is_proven() -> None:
 def test_a_given_law_beyond_a_limit_is_marked() -> None:
     view = cycle_view.answer(cycle_of(segment=with_law("cycloidal")))
     assert (view["trust"]["status"], view["trust"]["word"]) == ("refused", "beyond a limit")
-    assert view["trust"]["advice"] == "Beyond what is allowed: segment 3 (Return): velocity, 840 mm/s of 616 mm/s."
+    assert view["trust"]["advice"] == "Limits exceeded: segment 3 (Return): velocity, 840 mm/s of 616 mm/s."
     assert cycle_view.answer(cycle_of(segment=with_law("cycloidal"), limits={}))["trust"] is None
     assert [one["peaks"][0]["beyond"] for one in view["segments"]] == [True, False, True, False]
 

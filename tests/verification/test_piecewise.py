@@ -158,7 +158,7 @@ TAMPER: dict[Callable[[Data], None], str] = {
     _one_segment: "continuity of derivative 2",
     _other_breaks: "breaks",
     _smoother: "continuity of derivative 4",
-    _lower_degree: "terms beyond the degree",
+    _lower_degree: "terms above the degree",
     _fewer_pieces: "4 pieces instead of 2",
 }
 

@@ -30,7 +30,10 @@ WRONG: dict[str, tuple[Callable[[str], str], str]] = {
     "nan": (lambda text: text.replace('"objective": ', '"objective": NaN, "was": '), "NaN is no JSON number"),
     "infinity": (lambda text: text.replace('"gap": ', '"gap": -Infinity, "was": '), "-Infinity is no JSON number"),
     "overflow": (lambda text: text.replace('"objective": ', '"objective": 1e999, "was": '), "finite number, got inf"),
-    "huge": (lambda text: text.replace('"objective": ', f'"objective": {"9" * 400}, "was": '), "beyond all floats"),
+    "huge": (
+        lambda text: text.replace('"objective": ', f'"objective": {"9" * 400}, "was": '),
+        "outside the range of floating-point numbers",
+    ),
     "endless": (lambda text: text.replace('"objective": ', f'"objective": {"9" * 5000}, "was": '), "not JSON"),
     "twice": (lambda text: text.replace('"objective": ', '"objective": 1, "objective": '), "comes twice"),
     "format": (lambda text: text.replace('"format": 1', '"format": 2'), "law was written by a newer optlaws: format 2"),

@@ -192,7 +192,7 @@ TAMPER: dict[Callable[[Data], None], str] = {
     _renamed: "contacts",
     _objective: "the objective",
     _constant: "J",
-    _degree: "terms beyond the degree",
+    _degree: "terms above the degree",
     _monotone: "the objective",
 }
 

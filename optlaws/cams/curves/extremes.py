@@ -145,7 +145,7 @@ class CamExtremes:
     pressure_angles
         The least and the greatest pressure angle, with their signs.
     least_convex_radius
-        The least radius of curvature of the profile where it bulges.
+        The least radius of curvature of the profile where it is convex.
     least_concave_radius
         The least radius where it is concave, as a positive number; None where it is proven to be concave nowhere. A
         cutter must be smaller.

@@ -48,7 +48,7 @@ class FlatFollower(CamFollower, title="a flat follower"):
 
     face_length: NumberOrQuantity | None = entry(
         Measured("length", above=0.0),
-        "Of the face: no less than the way of the contact along it, which is reported beside it.",
+        "Of the face: at least the travel of the contact along it, which is reported beside it.",
         default=None,
         kw_only=True,
         example="60 mm",

@@ -88,7 +88,7 @@ def roller_radius(value: Any, place: Place) -> float:
     if radius >= place.radius:
         raise InputError(
             f"roller: its radius {shown(radius)} is not less than that of the prime circle, {shown(place.radius)}, on"
-            " which its centre runs: nothing is left of the cam: make the roller smaller or the prime circle larger"
+            " which its centre runs: the cam would have no material: make the roller smaller or the prime circle larger"
         )
     return radius
 

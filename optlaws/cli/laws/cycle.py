@@ -118,7 +118,7 @@ def _greatest_speed(file: Path, out: Path | None) -> Answer:
         ),
         lambda: {name: speed.report().data for name, speed in speeds.items()},
         lambda: figure_of(draw_axes(at_best) if len(at_best) > 1 else draw_cycle(*at_best.values()), spec.title),
-        NotProven(f"axis {', '.join(unproven)}: that no law is faster is not proven") if unproven else None,
+        NotProven(f"axis {', '.join(unproven)}: no proof that no law is faster was found") if unproven else None,
     )
 
 
@@ -167,7 +167,7 @@ def _old_cam(
     latest, report = new or old, OldTableReport(old, new)
     if new is not None and (save or chosen) and not any(part.solution for part in new.stretches):
         reasons = joined("; ", report.unchanged)
-        raise InfeasibleProblem(sentence("nothing is written, as no move has a better law: {}", reasons))
+        raise InfeasibleProblem(sentence("no file is written, because no move has a better law: {}", reasons))
     files, lines = {}, []
     if save is not None:
         files["saved"] = str(_save(latest, save, file, speed))

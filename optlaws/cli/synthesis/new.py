@@ -52,7 +52,7 @@ def _new(
     if place.suffix != ".toml":
         raise InputError(f"a problem file's name ends in .toml, got {place}")
     if place.exists():
-        raise InputError(f"{place} is there already, and nothing is written over it: name another file")
+        raise InputError(f"{place} exists already and is not overwritten: name another file")
     writing.check_place(place)
     text = starter.text({**given(numbers), **others}, place)
     with place.open("x", encoding="utf-8", newline="\n") as out:

@@ -118,7 +118,7 @@ class Advice:
     def remarks(self) -> tuple[str, ...]:
         """Why there is no law of a name, in a line each."""
         why = {
-            name: "no law within the limits does that" if isinstance(error, InfeasibleProblem) else str(error)
+            name: "no law within the limits meets this aim" if isinstance(error, InfeasibleProblem) else str(error)
             for name, error in self.errors.items()
         }
         return tuple(f"{name}: {text.splitlines()[0][:_LONGEST]}" for name, text in why.items())

@@ -123,7 +123,7 @@ class _Words:
             text = "{}{}; none of the {} standard laws does: {}."
             return sentence(text, start, limits, len(standard), _why_not(usual))
         if law is usual:
-            text = "{}{}, and no law that takes no more of anything is better{}."
+            text = "{}{}, and no law with no more of the other quantities is better{}."
             return sentence(text, start, limits, self._beyond)
         share = 1.0 - law.values[minimise] / usual.values[minimise]
         return sentence("{}, {} % less than that of {}{}.", start, f"{100.0 * share:.3g}", usual.name, limits)

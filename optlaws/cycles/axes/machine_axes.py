@@ -528,13 +528,13 @@ class Overlap(AxesAnswers, Declared, title="axes that overlap"):
 
     def summary(self) -> Summary:
         """Status, objective and bound, the gain, and what leaves no room."""
-        what, unit, better = "greatest acceleration, as a share of the given one", "", "times lower"
+        what, unit, gain = "greatest acceleration, as a share of the given one", "", "reduction by the factor"
         if self.goal == "period":
-            what, unit, better = "least period", "s", "times as fast"
+            what, unit, gain = "least period", "s", "speed, as a multiple of the given one"
         values = {
             what: (self.objective, unit),
             "proven lower bound": (self.lower_bound, unit),
-            "gain": (self.gain, better),
+            gain: (self.gain, ""),
         }
         rows = [*(Row(name, *value) for name, value in values.items()), best_possible_row(None, self.objective)]
         if self.without_dwells is not None:

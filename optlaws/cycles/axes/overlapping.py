@@ -586,7 +586,7 @@ def gentlest(
         if not bound < 0.0:
             labels = "; ".join(rule.label for rule in rules)
             raise InfeasibleProblem(
-                f"no instants of these laws keep all interlocks: {labels}: moves would have to take no time"
+                f"no instants of these laws keep all interlocks: {labels}: at least one move would have no time left"
             )
         return of_laws, unknowns, 1.0 / bound**2
 

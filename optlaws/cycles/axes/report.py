@@ -86,7 +86,7 @@ class AxesReport:
                 note=cycle.status.value)
             for name, cycle in self.cycles.items() if cycle.solutions
         )  # fmt: skip
-        beyond = (Row(f"{name}: beyond what is allowed", text) for name, text in self.beyond)
+        beyond = (Row(f"{name}: limit exceeded", text) for name, text in self.beyond)
         return Summary([*clearances, *beyond, *laws], at="deg")
 
     @kept_property

@@ -181,7 +181,7 @@ class TimeFront(JsonText):
             return before
         if not self.falls:
             raise InputError(
-                f"the {self.minimise} need not fall with the time, so that nothing is known between the points of the "
+                f"the {self.minimise} may rise with the time, so there is no bound between the points of the "
                 f"front; the nearest are at {before.duration:.9g} s and {self.durations[i + 1]:.9g} s"
             )
         after, nu = self[i + 1], self.objective.nu
@@ -305,7 +305,9 @@ class FrontOverTime(Declared, title="a front"):
     """Fronts over the time: what is least, how long the longest time is, and how many points there are."""
 
     minimise: tuple[str, ...] = entry(
-        Listed(Text(), least=1, most=6), "What is least, each with a front.", example=["rms acceleration"]
+        Listed(Text(), least=1, most=6),
+        "The quantities that are minimised, each with a front.",
+        example=["rms acceleration"],
     )
     longest: NumberOrQuantity | None = entry(
         Measured("time", above=0.0),

@@ -436,7 +436,8 @@ def span_problem(span: LawSpan, objective: CycleObjective) -> Problem:
     limits = of_each[0] or {}
     if minimised is Kind.ENERGY and all(key.sign or key.kind is Kind.VELOCITY for key in limits):
         raise InputError(
-            f"{span.where}: its energy falls with ever greater accelerations, so that none is least: give a limit of "
+            f"{span.where}: its energy falls without end as accelerations grow, so there is no least "
+            f"one: give a limit of "
             "the acceleration, or of the force or torque"
         )
     plain = not any(any(end[1:]) for end in (ends.start, ends.end))

@@ -166,7 +166,7 @@ def _durations(segments: Sequence[CycleSegment], names: Sequence[str], period: f
     if len(free) == 1:
         left = period - (low - bounds[free[0]][0])
         if left <= CLOSURE * period:
-            raise InputError(f"{names[free[0]]}: nothing is left for it")
+            raise InputError(f"{names[free[0]]}: the other segments leave no time for it")
         bounds[free[0]] = (left, left)
     for i in free if len(free) > 1 else ():
         if not isinstance(segments[i], Move):

@@ -94,7 +94,7 @@ function boxesChecked(certificate) {
   const { claim, bound = null } = certificate;
   const holds = boxesHold(certificate);
   const stated = bound === null || bound <= claim;
-  const detail = !holds ? `the steps do not show that no law has an objective below ${claim}` : stated ? `no law has an objective below ${claim}` : `${bound} is stated, ${claim} is proven`;
+  const detail = !holds ? `the steps do not prove that no law has an objective below ${claim}` : stated ? `no law has an objective below ${claim}` : `${bound} is stated, ${claim} is proven`;
   return { verdict: holds && stated ? "proven" : "not proven", detail, bound: holds ? exact(claim) : null };
 }
 

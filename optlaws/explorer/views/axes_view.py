@@ -137,8 +137,8 @@ def _trust(axes: Axes, report: AxesReport) -> dict[str, Any]:
     status, word, advice = _WORDS[worst]
     named = "; ".join(each.interlock.label for each in axes.broken if each.status == worst)
     if not axes.rules:
-        status, word, advice = "given", "no interlocks", "Nothing is asked of two axes at a time."
-    limits = [sentence("{}: beyond what is allowed: {}.", *each) for each in report.beyond]
+        status, word, advice = "given", "no interlocks", "No interlock between two axes is given."
+    limits = [sentence("{}: limits exceeded: {}.", *each) for each in report.beyond]
     if limits:
         status, word = "refused", "beyond a limit" if worst == "clear" else f"{word}, beyond a limit"
     text = joined(" ", [f"{advice}{named}{'.' if named else ''}", *limits])

@@ -108,7 +108,7 @@ def _trust(report: CamReport) -> dict[str, Any]:
     undercut, beyond = report.cam.extremes.undercut, report.beyond
     (word, status), advice = _TITLES[undercut.status], sentence("{}.", undercut)
     if beyond and undercut.status != UNDERCUT:
-        (word, status), advice = _BEYOND, sentence("beyond what is allowed: {}.", joined("; ", beyond))
+        (word, status), advice = _BEYOND, sentence("limits exceeded: {}.", joined("; ", beyond))
     facts = fact_sentences(report.extremes, DIGITS)
     return {"status": status, "word": word, "advice": capital(advice), "facts": facts}
 

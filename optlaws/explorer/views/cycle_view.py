@@ -162,13 +162,13 @@ def trust(shown: Plan) -> dict[str, Any] | None:
     """The status of the laws and what is proven of them, and which limits they do not keep; None of laws as given."""
     beyond, broken = broken_limits(shown), dict[str, str]()
     if beyond:
-        advice = sentence("Beyond what is allowed: {}.", joined("; ", beyond))
+        advice = sentence("Limits exceeded: {}.", joined("; ", beyond))
         broken = {"status": "refused", "word": "beyond a limit", "advice": advice}
     if not shown.solutions:
         return {"facts": []} | broken if broken else None
     facts = fact_sentences(row for row in proof_rows(shown) if row.name != "status")
     gap = "" if shown.lower_bound is None else gap_text(1.0 - shown.lower_bound / shown.objective)
-    optimal = f"The lower bound meets the objective: none is better of {shown.search_space}."
+    optimal = f"The lower bound meets the objective: no law is better among {shown.search_space}."
     return verdict(shown.status, gap, facts, optimal) | broken
 
 

@@ -191,7 +191,7 @@ def ratios(request: CycleRequest) -> dict[str, Any]:
     words = "torque at the motor over the ratio of the gear, of laws as they are given"
     if searched:
         proven = all(cycle.status is Status.OPTIMAL for cycle in searched)
-        bound = "proven" if proven else "none is below the dashed line, of laws that never turn back"
+        bound = "proven" if proven else "no law that never turns back is below the dashed line"
         words = f"least {searched[0].minimise} at each ratio: {bound}"
     return {
         "ratios": places,

@@ -63,7 +63,7 @@ _TABLES: dict[str, dict[str, tuple[ValueType, str | None, str]]] = {
         "friction": (Measured("torque", least=0.0), None, "Friction at the table; none unless given."),
         "ratio": (Number(above=0.0), "20", "Turns of the motor with a turn of the table."),
         "rotor": (_INERTIA, "3e-4 kg m^2", "Moment of inertia of the motor."),
-        "rated-torque": (_TORQUE, "2 N m", "Torque that the motor bears for ever."),
+        "rated-torque": (_TORQUE, "2 N m", "Continuous (rated) torque of the motor."),
         "peak-torque": (_TORQUE, "6 N m", "Torque that the motor must not exceed."),
         "greatest-speed": (InSI("angular velocity", above=0.0, absent=inf), "3000 rpm", "Greatest speed of the motor."),
     },
@@ -75,7 +75,7 @@ _TABLES: dict[str, dict[str, tuple[ValueType, str | None, str]]] = {
     },
     "interlock": {
         "index": (_STROKE, "45 deg", "How far the table moves while the slide is out of its way."),
-        "clear": (_STROKE, "20 mm", "Position from which on the slide is out of the way."),
+        "clear": (_STROKE, "20 mm", "Position from which on the slide is clear of the table."),
         "within": (_STROKE, "0.5 deg", "How near its places the table is as good as there."),
     },
     "fastest, machine": {
@@ -83,7 +83,7 @@ _TABLES: dict[str, dict[str, tuple[ValueType, str | None, str]]] = {
         "damping": (Number(least=0.0), "0.02", "Damping ratio of the load."),
     },
     "machine": {
-        "spread": (Number(least=0.0, most=1.0), "0.1", "How far the frequency may be off, as a share of it."),
+        "spread": (Number(least=0.0, most=1.0), "0.1", "Relative deviation of the frequency: 0.1 for 10 %."),
         "sway": (_STROKE, "1 mm", "How far the load may sway afterwards."),
     },
     "law, study": {

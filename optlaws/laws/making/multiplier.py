@@ -230,7 +230,7 @@ def _even(y: Multiplier) -> list[Fraction]:
 def _check_nowhere_negative(even: Sequence[Fraction]) -> None:
     low, _ = PolynomialLaw.from_chebyshev(even).extrema(0)
     if low.value < -VALUE_ROUNDING * float(max(map(abs, even))):
-        raise InputError(f"y must be nowhere negative, but is {low.value:.6g} at k = {low.k:.6g}")
+        raise InputError(f"y must be at least 0 everywhere, but is {low.value:.6g} at k = {low.k:.6g}")
 
 
 def _of_polynomial(law: PolynomialLaw, y: Sequence[Fraction]) -> PolynomialLaw:

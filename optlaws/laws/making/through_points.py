@@ -372,7 +372,7 @@ def _within(places: Array, heights: Array, room: float, *, rest: bool) -> Piecew
         least = min(least, missed)
     raise InputError(
         f"no law of at most {_MOST_PIECES} equal pieces is within the tolerance, {room:.3g} of the stroke, and none "
-        f"goes through the points: the nearest misses one by {least:.3g}; raise the tolerance, or take one motion "
+        f"goes through the points: the nearest deviates by {least:.3g}; raise the tolerance, or take one motion "
         "from rest to rest"
     )
 

@@ -56,7 +56,7 @@ class Motor(Declared, title="a motor"):
     )
     curve: CurveOfTorque = entry(
         _CURVE,
-        "The peak torque over the speed, straight between pairs by rising speed; beyond the last one there is none.",
+        "The peak torque over the speed, straight between pairs by rising speed; above the last speed it is 0.",
         default=(),
         example=[["0 rpm", "6 N m"], ["3000 rpm", "4 N m"]],
     )

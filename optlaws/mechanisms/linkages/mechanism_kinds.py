@@ -493,7 +493,7 @@ class Screw(SlideKind, kind="screw"):
 
     moved_by = ("lead", TURN)
 
-    lead: SINumber = entry(LENGTH, "The way of the nut with a turn of the screw.", example="10 mm")
+    lead: SINumber = entry(LENGTH, "The travel of the nut per turn of the screw.", example="10 mm")
     mass: SINumber = entry(MASS, "Of the nut and what it carries.", example="80 kg")
 
 

@@ -73,7 +73,7 @@ class LimitedMove(Declared, title="a move with its limits"):
     minimise: DriveObjective = entry(Choice(*get_args(DriveObjective)), "Of what a limit is computed.")
     start: float = entry(Number(), "Where the input begins.")
     stroke: float = entry(Number(), "How far it moves.")
-    duration: float | None = entry(Number(above=0.0), "How long; none of the least time.", default=None)
+    duration: float | None = entry(Number(above=0.0), "Duration; not given where the time is minimised.", default=None)
     limits: MoveTable = entry(
         Table(Either(Number(above=0.0), _PARTS, which=is_list), keep=pairs),
         "The greatest velocity and acceleration of the input, and torque or force, or lists of them by position.",
@@ -289,7 +289,9 @@ class PhaseMove:
         """Two positions of the input as shares of the stroke."""
         low, high = sorted((position - self.over.start) / self.over.stroke for position in positions)
         if not -CLOSURE <= low < high <= 1.0 + CLOSURE:
-            raise InputError(f"a part of the way must be within the stroke and have a length, got {positions!r}")
+            raise InputError(
+                f"a part of the travel must lie within the stroke and have a length above 0, got {positions!r}"
+            )
         return (0.0 if low < CLOSURE else low), (1.0 if high > 1.0 - CLOSURE else high)
 
     def scale(self, minimise: DriveObjective) -> tuple[float, str]:

@@ -145,7 +145,7 @@ def _check_rod(crank: float, rod: float, offset: float, ends: tuple[float, float
         return
     lows, highs = zip(*beyond, strict=True)
     reached = [way for way in zip((ends[0], *highs), (*lows, ends[1]), strict=True) if way[0] < way[1]]
-    near = "it is reached nowhere in the range"
+    near = "the mechanism does not reach it within the range"
     if reached:
         shown = f"{degrees(reached[0][0]):.6g} to {degrees(reached[-1][1]):.6g} deg"
         near = f"within the range it is reached from {shown} but for these"

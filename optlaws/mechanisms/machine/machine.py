@@ -54,7 +54,7 @@ class Measure(Declared, title="a constant of the machine"):
     dwell: float = entry(
         Number(), "Of an RMS: how much of the dwell counts too, in durations of the rise.", default=0.0
     )
-    spread: float = entry(SPREAD, "Share by which frequencies may be off, either way: 0.1 for 10 %.", default=0.0)
+    spread: float = entry(SPREAD, "Relative deviation of frequencies in both directions: 0.1 for 10 %.", default=0.0)
     damping: tuple[float, float] | None = entry(
         _PAIR, "The least and the greatest damping ratio; the mode's own unless given.", default=None
     )

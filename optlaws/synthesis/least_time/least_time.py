@@ -354,7 +354,7 @@ class LeastTime(JsonText, Generic[TimedT]):
         if wrong:
             raise InputError(wrong)
         if not all(proof.stands(self.move) for proof in self.proofs):
-            raise InputError("a proof that no law is faster does not show that of its times")
+            raise InputError("the proof that no law is faster does not apply to its times")
         known, stated = self.best_possible, real(given)
         # that in the phase plane is a conic program's
         share = PHASE_GAP if isinstance(self.move, TimedMove) and self.move.torque is not None else STORED_VALUE

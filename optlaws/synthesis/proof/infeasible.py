@@ -95,7 +95,7 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
             "B from above, or end conditions of a higher order, help"
         )
         return SolverFailure(msg, problem=problem, tried=tried)
-    msg = "no law was found, and none was shown not to exist; try a degree higher or lower by 2, or other numbers"
+    msg = "no law was found, and no proof that none exists; try a degree higher or lower by 2, or other numbers"
     remarks = [remark for constant in problem.constants for remark in constant.remarks]
     return SolverFailure("; mind that ".join([msg, *remarks]), problem=problem, tried=tried)
 

@@ -182,7 +182,7 @@ def _rates(number: SweptParameter, ends: Ends, *rows: list[tuple[float, Array, f
     if number.concave:
         return np.zeros(len(first)), np.zeros(len(first))
     if any((values != other).any() for (_, values, _), (_, other, _) in zip(first, last, strict=True)):
-        raise InputError(f"{number.name} changes more than right sides of rows, so that nothing is proven between")
+        raise InputError(f"{number.name} changes coefficients of constraints, so there is no proof between its values")
     low, high = (np.array([right for _, _, right in some]) for some in rows)
     rates = (high - low) / (ends[1] - ends[0])
     return rates, np.where(rates == 0.0, 0.0, _PRODUCT_ROUNDING * np.maximum(np.abs(low), np.abs(high)))

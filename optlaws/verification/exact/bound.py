@@ -150,7 +150,7 @@ class _Leaf:
         there = _Leaf(ExactRows(certificate), certificate)
         pairs = list(zip(self.vectors, there.vectors, strict=True))
         if any(bool(a != b) for here, other in pairs for a, b in zip(here[:-1], other[:-1], strict=True)):
-            raise InputError("the number changes more than right sides of rows: nothing is proven along it")
+            raise InputError("the number changes coefficients of constraints, so there is no proof along it")
         return [(other[-1] - here[-1]) / ball(along.width) for here, other in pairs]
 
     def repaired(self, slopes: Vector) -> tuple[Vector, arb] | None:

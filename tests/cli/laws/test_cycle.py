@@ -52,7 +52,7 @@ def test_it_is_one_json_object(capsys: Capture) -> None:
     [
         ('{ velocity = "616 mm/s" }', 0, ""),
         pytest.param(
-            '{ power = "30 W" }', 1, "axis slide: that no law is faster is not proven", marks=pytest.mark.long
+            '{ power = "30 W" }', 1, "axis slide: no proof that no law is faster was found", marks=pytest.mark.long
         ),
         ("{ }", 2, "axis slide: no limit bounds the motions"),
         ('{ force = "10 N" }', 3, "axis slide: segment 1 (Rise): at its start"),

@@ -123,7 +123,7 @@ def test_a_page_names_the_pictures_that_are_drawn(tmp_path: Path, without: list[
 def test_the_report_of_axes_says_which_limits_they_break() -> None:
     slow = Cycle(X, period="1.2 s", limits={"velocity": "1 m/s", "acceleration": "90 m/s^2"})
     machine = Axes({"x": slow.unchecked(), "z": Cycle(Z, period="1.2 s")}, interlocks=RULES[2:4])
-    (row,) = (row for row in machine.report().facts if "beyond" in row.name)
+    (row,) = (row for row in machine.report().facts if "limit exceeded" in row.name)
     (broken,) = (taken for taken in machine["x"].limits_taken if not taken.is_kept)
-    assert (row.name, row.value) == ("x: beyond what is allowed", str(broken))
-    assert not any("beyond" in row.name for row in PAIR.report().facts)
+    assert (row.name, row.value) == ("x: limit exceeded", str(broken))
+    assert not any("limit exceeded" in row.name for row in PAIR.report().facts)

@@ -274,7 +274,7 @@ def test_a_cam_that_is_undercut_says_so_where_forces_are_asked_for(tmp_path: Pat
     small = HEAD + 'prime_radius = "20 mm"\n' + ROLLER + "[forces]\n"
     page, _, _ = done(tmp_path, small + steep)
     assert "Undercut: undercut at " in page
-    assert "which it cannot on a cam that is undercut" in page
+    assert "which an undercut cam cannot give" in page
     with pytest.raises(InputError, match=r"no pressure: undercut at \d.* make the prime circle larger"):
         done(tmp_path, small + 'width = "20 mm"\n' + steep)
 
@@ -285,8 +285,8 @@ def test_page_and_explorer_show_the_facts_of_one_report(tmp_path: Path) -> None:
     page, _, _ = done(tmp_path, text)
     study = CycleRequest(study=reading.toml(tmp_path / "small.toml"))
     trust, sizes = cam_view.answer(study)["trust"], cam_view.sizes(study)["facts"]
-    (first, second) = (line for line in page.splitlines() if line.startswith("Beyond what is allowed: "))
-    assert trust["advice"] == f"{first.removesuffix('.')}; {second.removeprefix('Beyond what is allowed: ')}"
+    (first, second) = (line for line in page.splitlines() if line.startswith("Limits exceeded: "))
+    assert trust["advice"] == f"{first.removesuffix('.')}; {second.removeprefix('Limits exceeded: ')}"
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in page.splitlines() if line.startswith("| ")]
     shown = [row for row in rows if row[0] != "what"]
     compared, (law, *extremes) = shown[:6], shown[6:]

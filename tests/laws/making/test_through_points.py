@@ -83,7 +83,7 @@ def test_what_makes_no_law_is_refused() -> None:
         ((k, a * (1.0 - k)), "turn at k = 0.625, a = 0.27.*by themselves, points 0 to 5 and 5 to 8"),
         ((k, a * (1.0 - k) + 0.001 * k), "points return to 0.001: they turn at k = 0.625"),
         ((k, a, -1.0), "tolerance must be"),
-        ((many, many + 0.1 * np.sin(1e4 * many), 1e-3), "none goes through the points: the nearest misses one by 0"),
+        ((many, many + 0.1 * np.sin(1e4 * many), 1e-3), "none goes through the points: the nearest deviates by 0"),
         ((many, many), "at most 1000 points: give a tolerance"),
         ((k, [*a[:-1], np.nan]), "a.8. must be a finite real number, got nan"),
     ]
