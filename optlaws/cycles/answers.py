@@ -40,8 +40,8 @@ if TYPE_CHECKING:
 PlotOver = Literal["time", "speed"]
 T = TypeVar("T")
 _STRICTER = (
-    "The gear loses power under a load. While the motor brakes, the search takes its torque as if power flowed back, "
-    "which is never less than the torque; the lower bound is proven otherwise, of any law that never turns back."
+    "The gear has losses and a load: for a braking motor the search minimises an upper bound of the torque, that of "
+    "power flowing back through the gear; the lower bound has a separate proof, for all laws that never turn back."
 )
 
 

@@ -19,7 +19,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.spaces.bases import PolynomialBasis, Powers
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-from optlaws.synthesis.status import Status, measure
+from optlaws.synthesis.status import Status, gap_text, measure
 
 if TYPE_CHECKING:
     from optlaws.shown.report import Report
@@ -179,7 +179,7 @@ class Solution(LawExport, JsonText):
             Row(problem.titled(str(problem.minimise)), self.objective),
             Row("lower bound", "none above 0 is known")
             if self._is_without_bound
-            else Row("lower bound", self.lower_bound, note=f"gap {self.gap:.1e}"),
+            else Row("lower bound", self.lower_bound, note=gap_text(self.gap)),
         ]
         if self.best_possible is not None:
             laws = f"no {limited_laws(problem)} is below it, whatever its degree"

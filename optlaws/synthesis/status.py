@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from enum import StrEnum
+from math import isfinite
 from typing import overload
 
 import numpy as np
@@ -11,6 +12,9 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.tolerances import NO_OBJECTIVE, OPTIMALITY_GAP
+
+_GAP_ROUNDING = 1e-12  # of an objective: a gap below it is rounding
+_PERCENT = 100.0
 
 
 @overload
@@ -93,6 +97,19 @@ class Status(StrEnum):
             Status.DIED: "The process ended, mostly for want of memory; solve the point by itself.",
             Status.ERROR: "An error of the library itself, which its developers would like to see.",
         }[self]
+
+
+def gap_text(gap: float) -> str:
+    """The gap in words, in per cent; what is below 1e-10 % is rounding, and 1 is the gap of the bound 0.
+
+    >>> gap_text(0.161), gap_text(4.8e-14), gap_text(1.0)
+    ('gap 16 %', 'no gap but rounding', 'no bound above 0 is known')
+    """
+    if not isfinite(gap):
+        return "no bound is known"
+    if gap == 1.0:
+        return "no bound above 0 is known"
+    return f"gap {_PERCENT * gap:.2g} %" if gap > _GAP_ROUNDING else "no gap but rounding"
 
 
 def status_of(objective: float, bound: float, scale: float, *, proven: bool) -> Status:

@@ -31,6 +31,7 @@ from optlaws.shown.summary import Row, Summary
 from optlaws.spelling import either_spelling
 from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS
 from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.status import gap_text
 from optlaws.tolerances import VALUE_ROUNDING
 
 #: the laws that most designers choose between, the usual one first
@@ -297,7 +298,7 @@ def proof_in_words(law: AdvisedLaw) -> str:
     bound = law.proof.lower_bound
     if law.proof.status == "optimal" or not bound or bound <= 0.0:
         return str(law.proof.status.value)
-    return f"{law.proof.status.value}, gap {1.0 - bound / law.values[law.proof.minimise]:.1e}"
+    return f"{law.proof.status.value}, {gap_text(1.0 - bound / law.values[law.proof.minimise])}"
 
 
 @either_spelling

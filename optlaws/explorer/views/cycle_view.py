@@ -20,7 +20,7 @@ from optlaws.cycles.specification.limits import LIMITS, LIMITS_OF_CYCLE
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.entries.declared import entries_of
 from optlaws.errors import InfeasibleProblem, SolverFailure, located
-from optlaws.explorer.views.law_view import digits, gap_text, refusing, verdict
+from optlaws.explorer.views.law_view import digits, refusing, verdict
 from optlaws.explorer.views.panel_data import fact_sentences, panel_data, table_data
 from optlaws.explorer.views.requests import MOST_LAWS, check_size, without_files
 from optlaws.files import reading
@@ -30,6 +30,7 @@ from optlaws.mechanisms.drives.motor import OF_TORQUE, Motor
 from optlaws.motion.quantities import MILLI, TURN_DEG, UNITS
 from optlaws.numbers import NumberOrQuantity
 from optlaws.sentences import Amount, joined, sentence
+from optlaws.synthesis.status import gap_text
 from optlaws.tolerances import AGREEMENT, BOUND_SLACK
 
 _MOTION = ("velocity", "acceleration", "deceleration", "jerk", "snap")

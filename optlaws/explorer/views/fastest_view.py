@@ -19,7 +19,7 @@ from optlaws.cycles.report import CycleReport, objective_unit
 from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.cycle_view import CycleRequest, packaged_study
-from optlaws.explorer.views.law_view import digits, gap_text, refusing, verdict
+from optlaws.explorer.views.law_view import digits, refusing, verdict
 from optlaws.explorer.views.panel_data import drawn, fact_sentences, over_time, panel_data
 from optlaws.explorer.views.requests import check_size, without_files
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
@@ -31,6 +31,7 @@ from optlaws.shown.summary import Row
 from optlaws.studies.problem_entries import problem
 from optlaws.synthesis.least_time.move_limits import RESIDUALS
 from optlaws.synthesis.least_time.timed_move import AT_MOTOR, OBJECTIVES
+from optlaws.synthesis.status import gap_text
 from optlaws.tolerances import AGREEMENT, LEAST_TIME_GAP
 
 _WHERE = Path("the study")

@@ -34,11 +34,11 @@ from optlaws.numbers import bounded
 from optlaws.sentences import Amount
 from optlaws.synthesis.limits.of_problem import limited_laws
 from optlaws.synthesis.proof.infeasible import possible_velocities
+from optlaws.synthesis.status import gap_text
 from optlaws.tolerances import BOUND_SLACK
 
 Answer: TypeAlias = Callable[[Any], dict[str, Any]]
 
-_GAP_ROUNDING = 1e-12  # of an objective: a gap below it is rounding
 
 TITLES = {Status.OPTIMAL: "proven optimal", Status.LOCAL: "local", Status.INACCURATE: "bound not met"}
 _LONG_NUMBER = re.compile(r"\d+\.\d{4,}")
@@ -156,15 +156,6 @@ def verdict(status: Status, gap: str, facts: Iterable[str], optimal: str = "", *
     advice = optimal if optimal and status is Status.OPTIMAL else status.advice
     word = TITLES.get(status, status.value)
     return {"status": status.value, "word": word, "advice": advice, "gap": gap, "facts": list(facts), "proof": proof}
-
-
-def gap_text(gap: float) -> str:
-    """The gap in words; what is below 1e-12 is rounding, and 1 is the gap of the bound 0."""
-    if bounded(gap) is None:
-        return "no bound is known"
-    if gap == 1.0:
-        return "no bound above 0 is known"
-    return f"gap {gap:.1e}" if gap > _GAP_ROUNDING else "gap below 1e-12"
 
 
 _FIGURES = 5
