@@ -187,7 +187,7 @@ def test_what_cannot_be_is_refused_and_nothing_written(arguments: list[str], mes
 def test_nothing_is_written_over(capsys: Capture) -> None:
     Path("cycle.toml").write_text("mine", "utf-8")
     assert exit_code(["new", "cycle"]) == 2
-    assert "cycle.toml is there already, and nothing is written over it" in capsys.readouterr().err
+    assert "cycle.toml exists already and is not overwritten" in capsys.readouterr().err
     assert Path("cycle.toml").read_text("utf-8") == "mine"
 
 

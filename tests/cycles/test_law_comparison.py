@@ -99,7 +99,7 @@ def test_all_laws_are_drawn_into_the_axes_given() -> None:
 @pytest.mark.parametrize(
     ("laws", "given", "says"),
     [
-        ((), {}, "nothing to compare"),
+        ((), {}, "no laws to compare"),
         (("cubic", "cubic"), {}, "given twice"),
         (("cubic",), {"stroke": "35 mm"}, "go together"),
         (("cubic",), {"stroke": "35 kg", "duration": "1 s"}, "mass"),

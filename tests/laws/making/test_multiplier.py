@@ -129,8 +129,8 @@ def test_area_wanders_to_where_y_is_large() -> None:
     [
         ([1, 1], r"even about k = 1/2, but y\(k\) and y\(1 - k\) differ by up to 1; write it in powers of k \(1 - k\)"),
         (lambda k: 1 + k, "even about k = 1/2"),
-        ([0.9, -4, 4], "nowhere negative, but is -0.1 at k = 0.5"),
-        (lambda k: cos(2 * pi * k), "nowhere negative"),
+        ([0.9, -4, 4], "at least 0 everywhere, but is -0.1 at k = 0.5"),
+        (lambda k: cos(2 * pi * k), "at least 0 everywhere"),
         ([0], "zero everywhere"),
         ([], "zero everywhere"),
         (lambda k: abs(k - 0.5), "y must be smooth"),
@@ -213,7 +213,7 @@ def test_two_coefficients_and_one_condition_are_savins_family() -> None:
     ("constants", "complaint"),
     [
         ({"B": 1.9, "C": 5.6}, "no y of 3 even powers was found that gives B = 1.9, C = 5.6; the nearest gives"),
-        ({"B": 2.5}, "nowhere negative, but is"),
+        ({"B": 2.5}, "at least 0 everywhere, but is"),
         ({"c0": 1.0}, "and y = 1 c0 = 0"),
         ({"B": "1.9"}, "B must be a finite real number"),
         ({}, "one or more of B, C, D, J, c0, such as B=1.9"),
