@@ -21,7 +21,7 @@ from starlette.routing import Route
 
 from optlaws import Drive, catalogue
 from optlaws.explorer.answering import EXAMPLES, QUESTIONS, message
-from optlaws.explorer.views import cam_view, cycle_view, machine_view
+from optlaws.explorer.views import cam_view, cycle_view, machine_view, old_cam_view
 from optlaws.explorer.workers import MOST, SLICE, USUAL, Workers
 from optlaws.exports.format import FORMATS
 from optlaws.jobs.fastest import MoveEntries
@@ -56,6 +56,7 @@ def application(start: dict[str, Any], workers: Workers | None = None) -> Starle
         "space": [replace(ENTRIES[name], **given).form for name, given in _SPACE.items()],
         "mechanisms": machine_view.kinds(),
         "drive": Drive.form()["entries"],
+        "table": old_cam_view.OldCamEntries.form()["entries"],
         "formats": [{key: getattr(form, key) for key in _FORM} for _, form in sorted(FORMATS.items())],
     }
     first = msgspec.json.encode({"state": start, **known})

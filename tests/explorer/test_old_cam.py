@@ -12,7 +12,7 @@ from optlaws import Cycle, catalogue, read_cycle_table
 from optlaws.verification import verify
 from tests.documents import ROOT
 from tests.explorer.talk import Server, written
-from tests.explorer.test_page import go
+from tests.explorer.test_page import go, settle
 from tests.internals.explorer import CycleRequest, OpenRequest, old_cam_view, opened_file, start
 
 if TYPE_CHECKING:
@@ -174,6 +174,14 @@ def test_a_dropped_table_is_shown_and_bettered_within_a_dragged_band(page: Page,
     page.get_by_role("button", name="Export").click()
     bettered(page)
     assert "as executed" in page.locator("dialog[open]").inner_text()
+
+
+def test_the_moves_of_a_table_are_taken_as_the_machine(page: Page, served: Server) -> None:
+    go(page, served.link(view="old"))
+    page.get_by_role("button", name="Take these moves as the machine").click()
+    page.locator("#programme").wait_for()
+    settle(page)
+    assert [page.get_by_label(f"segment {i} law").input_value() for i in (0, 2)] == ["modified sine", "cycloidal"]
 
 
 def test_the_frame_of_a_table_is_said_in_fields(page: Page, served: Server) -> None:

@@ -5,7 +5,7 @@ import { plain } from "./units.js";
 import { html } from "./svg.js";
 
 const NOTHING = ["none", "free"]; // a field that says so is blank
-const WORDS = ["name", "law"]; // whose commas are no list
+const WORDS = ["name", "law", "columns", "cam"]; // whose commas are no list
 const spoken = (path) => path.join(" ").replaceAll("_", " ");
 const at = (table, path) => path.reduce((part, name) => part?.[name], table);
 

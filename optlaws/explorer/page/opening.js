@@ -86,7 +86,8 @@ export async function textOf(file) {
   }
 }
 
-async function stateOf(file) {
+/** The state that shows a file. */
+export async function stateOf(file) {
   const text = await textOf(file);
   const kept = file.name.toLowerCase().endsWith(".json") ? savedIn(text) : null;
   if (kept) return whole(kept.state, file.name);

@@ -41,18 +41,20 @@ class OldCamEntries(Declared, title="the table of an old cam"):
     _: KW_ONLY
     text: str = entry(Text(empty=True), "The file.", example="0;0")
     file: str = entry(Text(), "Its name.", default="table")
-    unit: str | None = entry(Text(), "That of the positions.", default=None)
-    master: str | None = entry(Text(), "The unit of the master.", default=None)
-    columns: str | None = entry(Text(), "Numbers or headings of columns.", default=None)
+    unit: str | None = entry(Text(), "That of the positions.", default=None, label="positions in", example="mm")
+    master: str | None = entry(Text(), "The unit of the master.", default=None, label="master in", example="deg")
+    columns: str | None = entry(Text(), "Numbers or headings of columns.", default=None, example="1, 2")
     cam: str | None = entry(Text(), "One of a file with several.", default=None)
-    room: float | None = entry(Number(above=0.0), "How far a law may be from the points.", default=None)
+    room: float | None = entry(
+        Number(above=0.0), "How far a law may be from the points.", default=None, label="points within"
+    )
     within: float | None = entry(Number(above=0.0), "How far better laws may be from the old ones.", default=None)
-    turn: str | None = entry(Text(), "How much of the master is a turn.", default=None)
-    advance: str | None = entry(Text(), "What the position advances by in a turn.", default=None)
-    rows: int | None = entry(Whole(2), "How many rows count.", default=None)
-    lobes: int = entry(Whole(1), "How often the rows follow each other in a turn.", default=1)
-    begin: str | None = entry(Text(), "Where the cycle begins on the master.", default=None)
-    speed: str | None = entry(Text(), "That of the master.", default=None)
+    turn: str | None = entry(Text(), "How much of the master is a turn.", default=None, example="720 deg")
+    advance: str | None = entry(Text(), "What the position advances by in a turn.", default=None, example="360 deg")
+    rows: int | None = entry(Whole(2), "How many rows count.", default=None, label="rows that count")
+    lobes: int = entry(Whole(1), "How often the rows follow each other in a turn.", default=1, label="lobes of a turn")
+    begin: str | None = entry(Text(), "Where the cycle begins on the master.", default=None, example="220 deg")
+    speed: str | None = entry(Text(), "That of the master.", default=None, example="200 rpm")
 
 
 def table(entries: OldCamEntries) -> OldTable:

@@ -1,37 +1,21 @@
 // The view of an old cam: its table dropped or chosen, the moves that it holds, and better laws within a tolerance.
 
 import { group, slider } from "../fields.js";
+import { Form } from "../form.js";
 import { Latest } from "../latest.js";
-import { textOf } from "../opening.js";
+import { stateOf, textOf } from "../opening.js";
 import { Panels } from "../panels.js";
 import { table } from "../report_table.js";
+import { fileOf } from "../saving.js";
 import { Strip } from "../strip.js";
 import { html, renew } from "../svg.js";
 import { checking, showTrust, unanswered } from "../trust.js";
-import { plain, written } from "../units.js";
+import { written } from "../units.js";
 
-const told = (value) => JSON.stringify(value);
-const whole = (value) => (Number.isInteger(Number(value)) && Number(value) > 0 ? Number(value) : undefined);
-const FIELDS = {
-  unit: ["positions in", "what the file says, or mm"],
-  master: ["master in", "what the file says, or deg"],
-  columns: ["columns", "1,2 or headings"],
-  cam: ["cam", "of a file with several"],
-  turn: ["turn", "what the rows have, or 720 deg"],
-  advance: ["advance", "what the rows have, or 360 deg"],
-  rows: ["rows that count", "all", whole],
-  lobes: ["lobes of a turn", "1", whole],
-  begin: ["begin", "at the first row, or 220 deg"],
-  speed: ["speed", "what the file says, or 200 rpm"],
-};
-const FILES = [
-  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cycle, where all moves are standard laws" },
-  { kind: "law", text: "Cycle with its laws (JSON)", about: "For Cycle.from_json" },
-  { kind: "table", text: "Table of values (CSV)", about: "Angle, time, position, velocity, acceleration and jerk" },
-];
+const ELSEWHERE = ["text", "file", "within", "speed"];
 
 export class View {
-  files = FILES;
+  files = ["problem", "cycle", "table"];
   moves = true;
   drawings = "#old-curves svg";
   #study;
@@ -41,7 +25,7 @@ export class View {
   #form = html("aside", { id: "old-ask", "aria-label": "The table and what is asked of it" });
   #band = html("div");
   #name = html("strong");
-  #shows = [];
+  #fields;
   #within = null;
   #curves;
   #tables;
@@ -51,14 +35,15 @@ export class View {
   #found = [];
   #wanted = false; // each takes a second of the processor and more: they wait for a click
 
-  constructor(root, study) {
+  constructor(root, study, { table: entries }) {
     this.#study = study;
+    this.#fields = new Form((what, alter) => study.change(what, (state) => alter(state.old)), () => study.rest());
     const curves = html("section", { id: "old-curves", class: "panel", "aria-label": "Points and laws over the master" });
     root.append(this.#form, html("section", { id: "old-middle", "aria-label": "What the table holds" }, this.#trust, this.#moves, this.#gains), curves);
     this.#curves = new Panels(curves, { strip: new Strip({ chosen: (i) => this.#curves.look(this.#answer.segments[i].at) }) });
     this.#tables = new Latest("api/old", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered(unanswered(error), question));
     this.#better = new Latest("api/old-move", (answer, question) => this.#find(answer, question), (error, question) => this.#find(unanswered(error), question));
-    this.#build();
+    this.#build(entries);
   }
 
   /** Every file but those of problems and laws is a table here. */
@@ -70,7 +55,7 @@ export class View {
 
   /** The cycle with its better laws, as far as they are found. */
   request({ old }) {
-    const known = this.#asked && told(near(this.#asked)) === told(near(old));
+    const known = this.#asked && JSON.stringify(near(this.#asked)) === JSON.stringify(near(old));
     return { study: old, laws: known ? this.#laws : [] };
   }
 
@@ -81,9 +66,9 @@ export class View {
 
   show(state) {
     this.#name.textContent = state.old.file ?? "table";
-    for (const show of this.#shows) show(state.old);
+    this.#fields.show(state.old);
     this.#within?.set(state.old.within ?? this.#answer?.within ?? null);
-    if (told(near(state.old)) !== told(this.#asked && near(this.#asked))) this.#tables.ask({ study: state.old });
+    if (JSON.stringify(near(state.old)) !== JSON.stringify(this.#asked && near(this.#asked))) this.#tables.ask({ study: state.old });
     else this.#ask();
   }
 
@@ -113,7 +98,7 @@ export class View {
   }
 
   #find(answer, { study, axis }) {
-    if (told(study) !== told(this.#bounded) || told(near(this.#study.state.old)) !== told(near(this.#asked))) return;
+    if (JSON.stringify(study) !== JSON.stringify(this.#bounded) || JSON.stringify(near(this.#study.state.old)) !== JSON.stringify(near(this.#asked))) return;
     this.#found[axis] = answer;
     this.#draw();
     if (answer.law) this.#tables.ask({ study, laws: this.#laws });
@@ -129,7 +114,7 @@ export class View {
       return;
     }
     const { moves, heights: unit, drawn, tables: [stretches, gains] } = answer;
-    this.#moves.replaceChildren(table("Moves of the table", stretches.headings, stretches.rows), html("p", { class: "facts", text: ["A old law · B new law · C points", drawn].filter(Boolean).join(" · ") }));
+    this.#moves.replaceChildren(table("Moves of the table", stretches.headings, stretches.rows), html("p", { class: "facts", text: ["A old law · B new law · C points", drawn].filter(Boolean).join(" · ") }), html("button", { type: "button", text: "Take these moves as the machine", onclick: ({ target }) => this.#hand().catch((error) => target.after(html("p", { class: "reason", text: error.message }))) }));
     const words = `Laws of least acceleration within ${written({ value: answer.within, unit, digits: 6 })} of the old ones at every place; jerk at most a fifth above.`;
     const button = html("button", { type: "button", text: "Find better laws", onclick: () => {
       this.#wanted = true;
@@ -139,6 +124,13 @@ export class View {
     const missing = moves.map((name, i) => [name, this.#found[i]]).filter(([, one]) => !one?.law).map(([name, one]) => `${name}: ${one ? written(one.kept ?? one.refused.reason) : "…"}`);
     const found = this.#laws.length ? [...(gains ? [table("Better laws within the tolerance", gains.headings, gains.rows)] : []), checking()] : [];
     renew(this.#gains, html("p", { class: "quiet", text: words }), ...(this.#wanted ? [...found, html("p", { class: "facts", text: missing.join(" · ") })] : [button]));
+  }
+
+  /** The moves are the machine from now on, with their laws by name. */
+  async #hand() {
+    const { text } = await fileOf("problem", this, this.#study.state);
+    const { machine } = await stateOf(new File([text], "table.toml"));
+    this.#study.change("take moves", (state) => Object.assign(state, { machine, axis: 0, view: "cycle" }));
   }
 
   /** The tolerance is dragged up to a fiftieth of the stroke, or typed. */
@@ -153,13 +145,13 @@ export class View {
     renew(this.#band, group("Tolerance band", this.#within.element));
   }
 
-  #build() {
+  #build(entries) {
     const chooser = html("input", { type: "file", "aria-label": "Table of an old cam", onchange: () => chooser.files.length && this.#take(chooser.files[0]) });
-    const fields = Object.entries(FIELDS).map(([name, [title, placeholder, of]]) => this.#text(name, title, placeholder, of));
+    const fields = (shown) => entries.filter(({ name }) => shown(name)).map((entry) => this.#fields.field({ ...entry, path: [entry.name] }, entry.label));
     this.#form.replaceChildren(
-      group("Table", html("p", {}, this.#name), chooser, html("p", { class: "hint", text: "or drop a file anywhere: columns of numbers, or what a controller has (CODESYS, TwinCAT, Siemens, an .L5X of Rockwell, …)" }), ...fields.slice(0, -1), this.#number("room", "points within", "the last digit, or the noise")),
+      group("Table", html("p", {}, this.#name), chooser, html("p", { class: "hint", text: "or drop a file anywhere: columns of numbers, or what a controller has (CODESYS, TwinCAT, Siemens, an .L5X of Rockwell, …)" }), ...fields((name) => !ELSEWHERE.includes(name))),
       this.#band,
-      group("Machine", ...fields.slice(-1)),
+      group("Machine", ...fields((name) => name === "speed")),
     );
   }
 
@@ -167,25 +159,6 @@ export class View {
     const text = await textOf(file);
     this.#study.change(`table ${file.name}`, (state) => (state.old = { file: file.name.slice(-200), text }));
     this.#study.rest();
-  }
-
-  #number(name, title, placeholder) {
-    return this.#text(name, title, placeholder, (value) => (Number(value) > 0 ? Number(value) : undefined));
-  }
-
-  #text(name, title, placeholder, of = (value) => value) {
-    const field = html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 60, "aria-label": title });
-    field.addEventListener("input", () => this.#study.change(name, (state) => {
-      const text = name === "columns" ? field.value.trim() : plain(field.value.trim());
-      const value = text && of(text);
-      if (value) state.old[name] = value;
-      else delete state.old[name];
-    }));
-    field.addEventListener("change", () => this.#study.rest());
-    this.#shows.push((old) => {
-      if (document.activeElement !== field) field.value = old[name] ?? "";
-    });
-    return html("label", { class: "entry" }, html("span", { class: "field-name", text: title }), field);
   }
 }
 
