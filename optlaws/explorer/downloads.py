@@ -212,6 +212,16 @@ def _cut(form: str, request: CycleRequest) -> File:
     return f"cam{ending}", cam_files.FORMATS[form](result.cam.profile, Cutting(about=result.spec.title))
 
 
+def _cam_table(request: CycleRequest) -> File:
+    table = cam_view.values_of(request)
+    return "cam.csv", to_csv(table.headings, table.rows, about=cam_view.result_of(request).spec.title)
+
+
+def _advice_table(request: CycleRequest) -> File:
+    table = advice_view.advice_of(request).report().tables[0]
+    return "advice.csv", to_csv(table.headings, table.rows, about="Laws for the motion side by side")
+
+
 def _old_problem(request: CycleRequest) -> File:
     if any(isinstance(part.law, MotionLaw) for part in old_cam_view.with_laws(request).moves):
         raise InputError("a problem file names laws, and some of these have no name: save the cycle with its laws")
@@ -235,7 +245,7 @@ _FASTEST: dict[str, Callable[[Any], File]] = {
 }
 _OLD: dict[str, Callable[[Any], File]] = {
     "problem": _old_problem,
-    "law": lambda request: (f"{_old_name(request)}.json", old_cam_view.cycle(request).to_json()),
+    "cycle": lambda request: (f"{_old_name(request)}.json", old_cam_view.cycle(request).to_json()),
     "table": lambda request: _motion_table(
         f"{_old_name(request)}_motion", _old_name(request), old_cam_view.cycle(request)
     ),
@@ -258,10 +268,14 @@ VIEWS: dict[str, ViewFiles] = {
         lambda request: axes_view.axes_of(request.study),
     ),
     "cam": (
-        {"problem": _study("cam.toml"), **{form: partial(_cut, form) for form in cam_files.FORMATS}},
+        {
+            "problem": _study("cam.toml"),
+            "table": _cam_table,
+            **{form: partial(_cut, form) for form in cam_files.FORMATS},
+        },
         lambda request: cam_view.result_of(request).cam,
     ),
-    "advice": ({}, advice_view.advice_of),
+    "advice": ({"table": _advice_table}, advice_view.advice_of),
     "fastest": (_FASTEST, fastest_view.fastest_of),
     "old": (_OLD, old_cam_view.cycle),
 }

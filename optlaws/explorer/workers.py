@@ -25,7 +25,7 @@ SLICE, USUAL, MOST = 0.25, 4.0, 300.0
 _SOON = 0.02  # between two looks at what a question has had
 _WAITED = 4.0  # a busy machine may take so many times as long in all
 _LONG = max(1, min(3, (os.cpu_count() or 2) - 1))
-_IDLE, _YIELDING = 2, 19  # processes that wait for a question; how far a long one gives way to others
+_IDLE, _YIELDING = 2, 5  # processes that wait for a question; how far a long one gives way to others
 _METHODS = multiprocessing.get_all_start_methods()
 #: where it can, a process is a copy of one that has loaded everything already
 _KIND = "forkserver" if "forkserver" in _METHODS else "spawn"

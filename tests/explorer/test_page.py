@@ -108,7 +108,7 @@ def test_keys_move_the_law_and_undo_takes_it_back(page: Page, served: Server) ->
 def test_a_problem_without_a_law_says_why_and_how_far_to_go_back(page: Page, served: Server) -> None:
     go(page, served.link(laws=[NONE], picture="residual"))
     assert "no such law" in page.locator("#trust").inner_text()
-    assert "|j| <= J" in page.locator("#trust .reason").inner_text()
+    assert "J <= 20" in page.locator("#trust .reason").inner_text()
     assert texts(page) == ["—"] * 5
     assert page.locator("#curves .line").count() == 0
     page.get_by_role("button", name="raise the bound of J from 20 to").click()
@@ -500,7 +500,7 @@ def test_small_screens_show_the_curves_beside_what_is_dragged(page: Page, served
     assert handle is not None
     assert handle["y"] < 500
     assert curves["y"] < 560
-    for view in ("Cycle", "Cam"):
+    for view in ("Motion", "Cam"):
         page.get_by_role("tab", name=view, exact=True).click()
         settle(page)
         assert page.evaluate("() => document.documentElement.scrollWidth") <= width

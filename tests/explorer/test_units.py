@@ -60,7 +60,7 @@ def test_numbers_are_shown_in_the_units_of_the_reader(page: Page, served: Server
     page.locator("#views [data-key=fastest]").click()
     settle(page)
     speed = page.locator("#fastest-table tbody tr >> nth=0 >> td >> nth=0").inner_text()
-    assert float(speed.removesuffix(" in/s")) == pytest.approx(1500.0 / 25.4, rel=1e-5)
+    assert float(speed.removesuffix(" in/s")) == pytest.approx(616.0 / 25.4, rel=1e-5)
     page.locator("#views [data-key=old]").click()
     settle(page)
     assert "velocity, in/deg" in page.locator("#old-curves .title").all_text_contents()
@@ -85,6 +85,8 @@ def test_no_text_of_a_view_has_a_number_in_a_unit_that_the_reader_left(page: Pag
     go(page, served.link(view=view, laws=[OPTIMAL]))
     settle(page)
     assert [text for text in page.evaluate(ALL_TEXTS) if re.search(SHOWN, text)] == []
+    named = page.locator("svg :is(.name, .title)").all_text_contents()
+    assert [text for text in named if re.search(r", (mm|deg|rpm)\b", text)] == []
 
 
 def test_numbers_are_written_to_their_digits_in_every_unit(page: Page, served: Server) -> None:

@@ -5,7 +5,7 @@
 // {from, to, name} of x; a line {points, name, title, closed}, `name` being its classes; a mark {at, name, title, r}; a label
 // {at, text, name, anchor, up, aside, room} with the pixels that must be free on its left; a pick {key, at, text, named}, whose key is
 // written beside it where `named` says so and there is room; a point is a mark that moves; a handle {key, at, along, low, high,
-// step, label, text, name} and perhaps {from, up, anywhere, fixed}: from where keys go, whether it is rounded up, whether the
+// step, label, text, name} and perhaps {from, up, anywhere, fixed}: a function of where keys go from, whether it is rounded up, whether the
 // whole picture drags it, whether nothing does. `told` is the picture in words. All but points and handles are drawn once for
 // an object `of`.
 
@@ -201,7 +201,7 @@ export class Chart {
       known.element.setAttribute("class", `handle along-${handle.along} ${handle.name ?? "law-0"}${handle.fixed ? " fixed" : ""}`);
       const attributes = {
         "aria-label": handle.label, "aria-orientation": across ? "horizontal" : "vertical", "aria-valuemin": handle.low,
-        "aria-valuemax": handle.high, "aria-valuenow": handle.from ?? handle.at[across ? 0 : 1], "aria-valuetext": handle.text,
+        "aria-valuemax": handle.high, "aria-valuenow": handle.from?.() ?? handle.at[across ? 0 : 1], "aria-valuetext": handle.text,
       };
       for (const [name, value] of Object.entries(attributes)) if (value !== undefined) known.element.setAttribute(name, value);
       known.element.querySelector("title").textContent = `${handle.label}: ${handle.text}`;
@@ -266,7 +266,7 @@ export class Chart {
       this.#to(handle, handle.at.map((one, i) => one + sign[i] * handle.step[i] * (event.shiftKey ? 10 : 1)));
     } else if (event.key === "Home") this.#to(handle, handle.low);
     else if (event.key === "End") this.#to(handle, handle.high);
-    else if (sign) this.#to(handle, (handle.from ?? handle.at[handle.along === "x" ? 0 : 1]) + (sign[0] + sign[1]) * handle.step * (event.shiftKey ? 100 : 10));
+    else if (sign) this.#to(handle, (handle.from?.() ?? handle.at[handle.along === "x" ? 0 : 1]) + (sign[0] + sign[1]) * handle.step * (event.shiftKey ? 100 : 10));
     else return;
     event.preventDefault();
   }

@@ -4,14 +4,13 @@ import { Form } from "./form.js";
 import { group, slider } from "./fields.js";
 import { html, renew } from "./svg.js";
 
-const told = (value) => JSON.stringify(value);
 const RATIOS = [0.1, 200];
 
 /** The axes of the same machine: those that have the mechanism and the drive of one. */
 export function beside(study, index) {
   const axis = study.axis[index] ?? study.axis[0];
-  const own = told([axis.mechanism, axis.drive]);
-  return study.axis.filter((one) => told([one.mechanism, one.drive]) === own);
+  const own = JSON.stringify([axis.mechanism, axis.drive]);
+  return study.axis.filter((one) => JSON.stringify([one.mechanism, one.drive]) === own);
 }
 
 /** Change the mechanism and the drive of all axes of the machine that an axis has. */
@@ -45,7 +44,7 @@ export class MachineForm {
   show(state) {
     const axis = state.machine.axis[state.axis] ?? state.machine.axis[0];
     const kind = axis.mechanism?.kind ?? "";
-    const shape = told([kind, Boolean(axis.drive?.motor)]);
+    const shape = JSON.stringify([kind, Boolean(axis.drive?.motor)]);
     if (shape !== this.#shape) this.#build(kind, axis);
     this.#shape = shape;
     for (const show of this.#shows) show(axis);

@@ -54,7 +54,7 @@ export class Plane {
     const text = none ? "no such law" : [x, y].map((name) => `${name} = ${valueOf(law.view, name).text}`).join(", ");
     // a bound is rounded up: the law that has the value keeps it
     return [{
-      key: "law", at, along: "x", low, high, step: STEPS[x], up: x !== "B", from: this.#asked(x) ?? undefined, anywhere: true, fixed: !law.movable,
+      key: "law", at, along: "x", low, high, step: STEPS[x], up: x !== "B", from: () => this.#asked(x), anywhere: true, fixed: !law.movable,
       label: `The law in the plane: ${x}`, text, name: `law-${this.#active}${none ? " none" : ""}`,
     }];
   }

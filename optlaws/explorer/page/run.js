@@ -1,39 +1,44 @@
-// A run through the turn: a button that plays and pauses, and a dial, which place the cursor of the pictures.
+// A run through a turn or a cycle: a button that plays and pauses, and a dial, which place the cursor of the pictures.
 
 import { html } from "./svg.js";
-
-const SPEED = 60; // degrees a second
 
 export class Run {
   #dial;
   #play;
+  #text;
   #cursor;
   #root;
+  #end;
+  #seconds;
   #frame = null;
 
-  /** `name` is what turns; the cursor is that of all pictures that follow. */
-  constructor(root, name, cursor) {
+  /** `label` is what the dial is; the cursor is that of all pictures that follow, from 0 to `end()`, in so many seconds;
+      `spoken(at)` is a place in words. */
+  constructor(root, label, cursor, { text = "Run", end = () => 360, steps = 360, seconds = 6, spoken = (at) => `${Math.round(at)} degrees` } = {}) {
     this.#root = root;
     this.#cursor = cursor;
-    this.#dial = html("input", { type: "range", min: 0, max: 360, step: 1, value: 0, "aria-label": `Angle of ${name}, degrees`, oninput: () => cursor.place(Number(this.#dial.value)) });
-    this.#play = html("button", { type: "button", text: "Run", onclick: () => (this.#frame === null ? this.#start() : this.#stop()) });
+    this.#end = end;
+    this.#seconds = seconds;
+    this.#text = text;
+    this.#dial = html("input", { type: "range", min: 0, max: steps, step: 1, value: 0, "aria-label": label, oninput: () => cursor.place((Number(this.#dial.value) / steps) * end()) });
+    this.#play = html("button", { type: "button", text, onclick: () => (this.#frame === null ? this.#start() : this.#stop()) });
     root.classList.add("run");
     root.replaceChildren(this.#play, this.#dial);
     cursor.watch((at) => {
       if (at === null) return;
-      this.#dial.value = at;
-      this.#dial.setAttribute("aria-valuetext", `${Math.round(at)} degrees`);
+      this.#dial.value = Math.round((at / end()) * steps);
+      this.#dial.setAttribute("aria-valuetext", spoken(at));
     });
   }
 
   #start() {
     this.#play.textContent = "Pause";
     let last = performance.now();
-    let angle = this.#cursor.at ?? 0;
+    let at = this.#cursor.at ?? 0;
     const step = (now) => {
-      angle = (angle + (SPEED * (now - last)) / 1000) % 360;
+      at = (at + ((now - last) / 1000 / this.#seconds) * this.#end()) % this.#end();
       last = now;
-      this.#cursor.place(Number(angle.toFixed(1)));
+      this.#cursor.place(Number(at.toFixed(1)));
       // a view that is not shown does not run
       if (this.#root.offsetParent === null) this.#stop();
       else this.#frame = requestAnimationFrame(step);
@@ -44,6 +49,6 @@ export class Run {
   #stop() {
     cancelAnimationFrame(this.#frame);
     this.#frame = null;
-    this.#play.textContent = "Run";
+    this.#play.textContent = this.#text;
   }
 }

@@ -3,14 +3,24 @@
 import { titled } from "./document.js";
 import { DOCUMENT } from "./opening.js";
 
-const PICTURE = { kind: "picture", text: "Picture (SVG)", about: "The curves as they are seen" };
-const REPORT = { kind: "report", text: "Report (HTML)", about: "Facts, tables and curves on a page to print" };
-const WHOLE = { kind: "document", text: "Document (JSON)", about: "The name, the notes and all that is set, to open again here" };
+/** What can be saved, by its kind: a view says of which of these it has files, or gives a file of its own like these. */
+const KINDS = {
+  python: { text: "Python", about: "Lines that reproduce what is seen" },
+  problem: { text: "Problem file (TOML)", about: "For optlaws run" },
+  law: { text: "Law (JSON)", about: "For optlaws law, compare and cycle; a solution with its proof for optlaws verify" },
+  cycle: { text: "Cycle with its laws (JSON)", about: "For Cycle.from_json" },
+  proof: { text: "Least time with its proof (JSON)", about: "For optlaws verify" },
+  table: { text: "Table of values (CSV)", about: "The curves, or the rows of the table, in columns with their units" },
+  report: { text: "Report (HTML)", about: "Facts, tables and curves on a page to print" },
+  picture: { text: "Picture (SVG)", about: "The curves as they are seen" },
+  document: { text: "Document (JSON)", about: "The name, the notes and all that is set, to open again here" },
+};
 const DRAWN = ["fill", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "opacity", "font-family", "font-size", "font-weight"];
 
 /** What can be saved of a view. */
 export function savings(view) {
-  return [...view.files, ...(view.request ? [REPORT] : []), ...(view.drawings ? [PICTURE] : []), WHOLE];
+  const own = [...view.files, ...(view.request ? ["report"] : []), ...(view.drawings ? ["picture"] : []), "document"];
+  return own.map((file) => (typeof file === "string" ? { kind: file, ...KINDS[file] } : file));
 }
 
 /** What a file of the document is called. */

@@ -4,6 +4,20 @@ import { html, renew } from "./svg.js";
 
 const MOST = 4;
 
+/** Laws by their titles as chips, of which one is active; `choose(i)` makes one so, `remove(i)` takes one of several away. */
+export function chips(titles, active, choose, remove) {
+  return titles.map((title, i) => html("span", { class: `chip${i === active ? " active" : ""}` },
+    html("button", { type: "button", class: "choose", "data-key": `law ${i}`, "aria-pressed": String(i === active), title, onclick: () => choose(i) }, html("span", { class: `swatch law-${i}`, text: "ABCD"[i] }), html("span", { class: "chip-name", text: title })),
+    titles.length > 1 ? html("button", { type: "button", class: "close", "data-key": `close ${i}`, "aria-label": `Take ${title} away`, text: "×", onclick: () => remove(i) }) : null));
+}
+
+/** A field that adds a standard law by its name. */
+export function standard(label, add) {
+  const field = html("input", { list: "names", placeholder: "+ standard law", "aria-label": label, maxlength: 100 });
+  field.addEventListener("change", () => field.value.trim() && add(field.value.trim()));
+  return field;
+}
+
 export class Tray {
   #root;
   #study;
@@ -18,8 +32,8 @@ export class Tray {
     const shown = JSON.stringify([laws.length, views.map((view, i) => titled(laws[i], view)), active]);
     if (shown === this.#shown) return;
     this.#shown = shown;
-    const chips = laws.map((law, i) => this.#chip(law, views[i], i, i === active, laws.length > 1));
-    renew(this.#root, ...chips, ...(laws.length < MOST ? this.#adding() : []));
+    const titles = laws.map((law, i) => titled(law, views[i]));
+    renew(this.#root, ...chips(titles, active, (i) => this.#study.change("active", (state) => (state.active = i)), (i) => this.#remove(i)), ...(laws.length < MOST ? this.#adding() : []));
   }
 
   /** Compare with a standard law by its name. */
@@ -29,13 +43,6 @@ export class Tray {
       if (there >= 0) state.active = there;
       else if (state.laws.length < MOST) state.active = state.laws.push({ name }) - 1;
     });
-  }
-
-  #chip(law, view, i, active, several) {
-    const title = titled(law, view);
-    const choose = html("button", { type: "button", class: "choose", "data-key": `law ${i}`, "aria-pressed": String(active), title, onclick: () => this.#study.change("active", (state) => (state.active = i)) }, html("span", { class: `swatch law-${i}`, text: "ABCD"[i] }), html("span", { class: "chip-name", text: title }));
-    const close = several ? html("button", { type: "button", class: "close", "data-key": `close ${i}`, "aria-label": `Take ${title} away`, text: "×", onclick: () => this.#remove(i) }) : null;
-    return html("span", { class: `chip${active ? " active" : ""}` }, choose, close);
   }
 
   #remove(i) {
@@ -52,9 +59,7 @@ export class Tray {
         state.active = state.laws.push(structuredClone(state.laws[state.active])) - 1;
       }),
     });
-    const field = html("input", { list: "names", placeholder: "+ standard law", "aria-label": "Add a standard law by its name", maxlength: 100 });
-    field.addEventListener("change", () => field.value.trim() && this.add(field.value.trim()));
-    return [copy, field];
+    return [copy, standard("Add a standard law by its name", (name) => this.add(name))];
   }
 }
 

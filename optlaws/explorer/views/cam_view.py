@@ -14,7 +14,7 @@ from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import PRESSURE
 from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.forces import Surfaces
-from optlaws.cams.report import DIGITS, CamReport, forces_section, leaves
+from optlaws.cams.report import DIGITS, CamReport, forces_section, leaves, named_forces
 from optlaws.cycles.specification.drive import CONSTANTS
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located
 from optlaws.explorer.views.cycle_view import SEGMENTS, CycleRequest
@@ -25,6 +25,8 @@ from optlaws.jobs.cam import CamResult
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.motion.quantities import MILLI, quantity
 from optlaws.sentences import Sentence, capital, joined, sentence
+from optlaws.shown.report import ReportTable
+from optlaws.tolerances import FORCE_ROUNDING
 
 _STEPS = 360
 _WHERE = Path("the cam")
@@ -123,6 +125,24 @@ def sizes(request: CycleRequest) -> dict[str, Any]:
     parts = result.differences, result.laws, result.sizes
     facts = [each for part in parts for each in fact_sentences(part.facts, part.digits)]
     return {"facts": [*facts, *(part.note for part in (result.differences, result.sizes) if part.note)]}
+
+
+def values_of(request: CycleRequest) -> ReportTable:
+    """The cam degree by degree, with its forces where the motion has a drive."""
+    result = result_of(request)
+    table = result.report.coordinates(_STEPS + 1, result.spec.cutter_radius)
+    if result.spec.motion.drive is None:
+        return table
+    forces = result.forces or result.forces_of(Surfaces())
+    angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
+    curves = (forces.contact_force, forces.shaft_torque, forces.contact_pressure)
+    columns = dict(zip(table.headings, zip(*table.rows, strict=True), strict=True))
+    for (name, _, unit, factor), curve in zip(named_forces(forces), curves, strict=False):
+        values = factor * np.asarray(curve(angles))
+        columns[f"{name}, {unit}"] = tuple(
+            np.where(np.abs(values) > FORCE_ROUNDING * np.abs(values).max(), values, 0.0)
+        )
+    return ReportTable.of_columns(columns)
 
 
 def example() -> dict[str, Any]:

@@ -23,11 +23,9 @@ const POINTS = 6; // of the front
 const MOST_BESIDE = 6;
 const STEPS = ["standard laws", "optimal laws", "the front"];
 
-const told = (value) => JSON.stringify(value);
-const word = (value) => String(Number(value.toPrecision(4))).replace("-", "−");
 
 export class View {
-  files = [];
+  files = ["table"];
   drawings = "#advice-side svg";
   #study;
   #state = null;
@@ -56,8 +54,8 @@ export class View {
     this.#state = state;
     for (const show of this.#shows) show(this.#asked(state));
     const question = this.request(state);
-    if (told(question) === this.#question) return;
-    this.#question = told(question);
+    if (JSON.stringify(question) === this.#question) return;
+    this.#question = JSON.stringify(question);
     this.#step = 0;
     this.#advice.stop();
     this.#standard.ask(question);
@@ -121,7 +119,7 @@ export class View {
   }
 
   #isLast({ points, ...question }) {
-    return told(question) === this.#question;
+    return JSON.stringify(question) === this.#question;
   }
 
   #draw(error = null) {
@@ -212,10 +210,10 @@ function pictured({ picture: { x, y, front: [curves] }, measures, rows, chosen }
     lines,
     marks: [
       ...(front?.points ?? []).map((at) => ({ at, name: "front-point", title: "a law of the front" })),
-      ...known.map((point) => ({ at: [point.x, point.y], name: `advised ${point.kind}${point.more.length ? " beyond" : ""}${point.name === chosen ? " chosen" : ""}`, title: `${point.name}: ${word(point.y)}${point.more.length ? `; more ${point.more.join(", ")} than the usual law` : ""}` })),
+      ...known.map((point) => ({ at: [point.x, point.y], name: `advised ${point.kind}${point.more.length ? " beyond" : ""}${point.name === chosen ? " chosen" : ""}`, title: `${point.name}: ${number(point.y, "", 4)}${point.more.length ? `; more ${point.more.join(", ")} than the usual law` : ""}` })),
     ],
     labels: placed(known.map((point) => ({ ...point, of: point.name === chosen })), range, log),
-    told: `${y.name} over ${x.name}: ${known.map((point) => `${point.name} ${word(point.y)} at ${word(point.x)}`).join(", ")}${best ? `; recommended is ${best.name}` : ""}`,
+    told: `${y.name} over ${x.name}: ${known.map((point) => `${point.name} ${number(point.y, "", 4)} at ${number(point.x, "", 4)}`).join(", ")}${best ? `; recommended is ${best.name}` : ""}`,
   };
 }
 

@@ -12,18 +12,12 @@ import { Timing, valueAt } from "../timing.js";
 import { showTrust, unanswered } from "../trust.js";
 import { listed, written } from "../units.js";
 
-const told = (value) => JSON.stringify(value);
 const GOALS = { "": "as they are given", acceleration: "least acceleration", period: "least period" };
 const WORDS = { clear: "good", broken: "bad" };
 const PEAKS = ["axis", "stroke", "velocity", "acceleration", "jerk", "laws"];
-const FILES = [
-  { kind: "python", text: "Python", about: "Lines that reproduce what is seen" },
-  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cycle" },
-  { kind: "table", text: "Table of values of this axis (CSV)", about: "Angle, time, position, velocity, acceleration and jerk" },
-];
 
 export class View {
-  files = FILES;
+  files = ["python", "problem", "table"];
   moves = true;
   drawings = "#axes-timing svg, #axes-plane svg, #axes-rooms svg";
   #study;
@@ -59,11 +53,11 @@ export class View {
     this.#timing = new Timing(timing, (row, segments) => this.#moved(row, segments));
     this.#positions = new Positions(plane, (rule, corner, place) => this.#cornered(rule, corner, place));
     this.#rooms = new Panels(rooms, { cursor: this.#cursor });
-    new Run(run, "the master", this.#cursor);
+    new Run(run, "Angle of the master, degrees", this.#cursor);
     this.#cursor.watch((at) => this.#turn(at));
     choice.addEventListener("change", () => study.change("plane", (state) => (state.plane = Number(choice.value))));
     this.#answers = new Latest("api/axes", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered(unanswered(error), question));
-    this.#clearances = new Latest("api/axes-clearances", (known, question) => told(question) === told(this.#asked) && this.#know(known), (error) => this.#know(unanswered(error)));
+    this.#clearances = new Latest("api/axes-clearances", (known, question) => JSON.stringify(question) === JSON.stringify(this.#asked) && this.#know(known), (error) => this.#know(unanswered(error)));
     this.#together = new Latest("api/axes-together", (answer, question) => this.#put(answer, question), (error) => this.#say([error.message]));
   }
 
@@ -91,22 +85,22 @@ export class View {
 
   /** What is proven of the answer that is drawn. */
   #know(known) {
-    this.#known = { rows: [], ...known, of: told(this.#asked) };
+    this.#known = { rows: [], ...known, of: JSON.stringify(this.#asked) };
     showTrust(this.#parts.trust, known, [], () => {});
     this.#draw();
     this.#facts();
   }
 
   #draw() {
-    const known = this.#known?.of === told(this.#asked) ? this.#known.rows : [];
+    const known = this.#known?.of === JSON.stringify(this.#asked) ? this.#known.rows : [];
     const { study } = this.#asked;
-    this.#timing.show(this.#answer, study, known.map(({ status }) => status), told(study) === told(this.#study.state.machine));
+    this.#timing.show(this.#answer, study, known.map(({ status }) => status), JSON.stringify(study) === JSON.stringify(this.#study.state.machine));
     this.#positions.show(this.#answer, this.#study.state.plane ?? 0, known);
     const { refused, panels, across, unit, note, planes = [] } = this.#answer;
     this.#rooms.show(refused ? this.#answer : { across, unit, note, panels: known.length ? this.#known.panels : panels, segments: [] });
     const { choice } = this.#parts;
     const names = planes.map(({ axes }) => axes.join(" and "));
-    if (told(names) !== told([...choice.options].map(({ text }) => text))) choice.replaceChildren(...names.map((text, value) => html("option", { value, text, translate: "no" })));
+    if (JSON.stringify(names) !== JSON.stringify([...choice.options].map(({ text }) => text))) choice.replaceChildren(...names.map((text, value) => html("option", { value, text, translate: "no" })));
     choice.hidden = names.length < 2;
     choice.value = String(Math.min(this.#study.state.plane ?? 0, names.length - 1));
     this.#turn(this.#cursor.at);
@@ -125,7 +119,7 @@ export class View {
   #facts() {
     const rows = this.#answer.refused ? [] : this.#answer.rows;
     const shown = rows.length ? [table("Axes with their peaks", PEAKS, rows.map(({ name, cells }) => [name, ...cells]))] : [];
-    const proven = this.#known?.of === told(this.#asked) ? this.#known.tables ?? [] : [];
+    const proven = this.#known?.of === JSON.stringify(this.#asked) ? this.#known.tables ?? [] : [];
     const words = (cells) => [cells[0], html("span", { class: `word ${WORDS[cells[1]] ?? "warn"}`, text: cells[1] }), ...cells.slice(2)];
     this.#parts.table.replaceChildren(...proven.map((one) => table("Least clearances of the interlocks", one.headings, one.rows.map(words))), ...shown);
   }
@@ -151,7 +145,7 @@ export class View {
   /** For what the moves are put together, and of which axes an acceleration is to be least. */
   #goal({ overlap, axis }) {
     const names = axis.map(({ name }) => name);
-    const shape = told([names, overlap]);
+    const shape = JSON.stringify([names, overlap]);
     if (shape === this.#shape) return;
     this.#shape = shape;
     const goal = html("select", { "aria-label": "put the moves together for" }, ...Object.entries(GOALS).map(([value, text]) => html("option", { value, text })));
@@ -174,7 +168,7 @@ export class View {
 
   #put({ refused, facts, study: made }, { study }) {
     if (refused) return this.#say([`${refused.word}: ${written(refused.reason)}`], true);
-    if (made && told(study) === told(this.#study.state.machine)) {
+    if (made && JSON.stringify(study) === JSON.stringify(this.#study.state.machine)) {
       this.#study.change("together", (state) => (state.machine = made));
       this.#study.rest();
     }

@@ -11,7 +11,6 @@ import { Run } from "../run.js";
 import { html } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
 
-const told = (value) => JSON.stringify(value);
 const element = (id) => document.getElementById(id);
 /** Entries of the file that the page has elsewhere, or does not show. */
 const ELSEWHERE = ["title", "text", "motion", "speed", "period", "rows", "best", "pair", "process", "as_made", "file", "animation"];
@@ -43,7 +42,7 @@ export class View {
     this.#kinds = cam;
     const { choices } = named(named(cam.entries, "file").list.entries, "format");
     const cut = choices.map((format) => ({ kind: format, text: `Profile (${format})`, about: "The cam's edge, within 1 µm" }));
-    this.files = [{ kind: "problem", text: "Problem file (TOML)", about: "For optlaws run" }, ...cut];
+    this.files = ["problem", "table", ...cut];
     this.#form = new Form((what, alter) => study.change(what, (state) => alter(state.cam)), () => study.rest(), (one, _path, before) => this.#take(one, before));
     this.#programme = new Programme(element("cam-programme"), study, (state) => state.cam, programme);
     this.#cams = new Latest("api/cam", (answer, question) => {
@@ -52,8 +51,8 @@ export class View {
       if (question.study.motion?.drive) this.#loads.ask(question);
       this.#sizes.ask(question);
     }, (error) => this.#render(unanswered(error)));
-    this.#loads = new Latest("api/cam-loads", (loads, asked) => told(asked.study) === told(this.#study.state.cam) && this.#bear(loads), (error) => this.#bear({ panels: [], facts: [error.message] }));
-    this.#sizes = new Latest("api/cam-sizes", ({ facts }, asked) => told(asked.study) === told(this.#study.state.cam) && this.#fact(facts), (error) => this.#fact([error.message]));
+    this.#loads = new Latest("api/cam-loads", (loads, asked) => JSON.stringify(asked.study) === JSON.stringify(this.#study.state.cam) && this.#bear(loads), (error) => this.#bear({ panels: [], facts: [error.message] }));
+    this.#sizes = new Latest("api/cam-sizes", ({ facts }, asked) => JSON.stringify(asked.study) === JSON.stringify(this.#study.state.cam) && this.#fact(facts), (error) => this.#fact([error.message]));
     this.#turning(cam.entries);
     this.#motion.cursor.watch((at) => this.#turn(at));
   }
@@ -121,7 +120,7 @@ export class View {
   #turning(entries) {
     const measure = html("input", { type: "checkbox", checked: true });
     measure.addEventListener("change", () => this.#mechanism.measure(measure.checked));
-    new Run(element("cam-turning"), "the cam", this.#motion.cursor);
+    new Run(element("cam-turning"), "Angle of the cam, degrees", this.#motion.cursor);
     element("cam-turning").append(html("label", { class: "switch" }, measure, "dimensions"));
     element("cam-turning").after(this.#read, explained({ ...WORDS, ...Object.fromEntries(entries.filter(({ name }) => !ELSEWHERE.includes(name)).map(({ label, about }) => [label, about])) }));
   }

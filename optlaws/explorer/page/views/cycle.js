@@ -20,14 +20,8 @@ const WORDS = {
   "free": "a segment whose positions and velocities at its ends are found with the law",
 };
 
-const FILES = [
-  { kind: "python", text: "Python", about: "Lines that reproduce what is seen" },
-  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cycle" },
-  { kind: "table", text: "Table of values (CSV)", about: "Angle, time, position, velocity, acceleration and jerk" },
-];
-
 export class View {
-  files = FILES;
+  files = ["python", "problem", "table"];
   moves = true;
   drawings = "#motion svg";
   #study;

@@ -11,20 +11,13 @@ import { table } from "../report_table.js";
 import { Strip } from "../strip.js";
 import { html, renew, svg } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
-import { headed, shownUnit, written } from "../units.js";
+import { headed, number, shownUnit, written } from "../units.js";
 
-const told = (value) => JSON.stringify(value);
-const word = (value, digits = 5) => String(Number(value.toPrecision(digits))).replace("-", "−");
 const OWN = ["stroke", "start_velocity", "end_velocity", "start"];
 const LONGEST = 2; // times the least, where a front has no end of its own
 const FINEST = 1e-4; // s
-const FILES = [
-  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws run" },
-  { kind: "proof", text: "Least time with its proof (JSON)", about: "For optlaws verify" },
-];
-
 export class View {
-  files = FILES;
+  files = ["problem", "proof"];
   moves = true;
   drawings = "#fastest-curves svg";
   #study;
@@ -55,7 +48,7 @@ export class View {
     this.#panels = new Panels(this.#at.curves, { strip: new Strip({ chosen: () => {} }) });
     this.#chart = new Chart(this.#at.chart, (_, value) => (value === null ? study.rest() : this.#give(value / 1000)));
     this.#answers = new Latest("api/fastest", (answer) => this.#answered(answer), (error) => this.#answered(unanswered(error)));
-    this.#fronts = new Latest("api/fastest-front", (front, question) => told(question) === told(this.#asked) && this.#swept(front), (error) => this.#swept({ points: [], words: error.message }));
+    this.#fronts = new Latest("api/fastest-front", (front, question) => JSON.stringify(question) === JSON.stringify(this.#asked) && this.#swept(front), (error) => this.#swept({ points: [], words: error.message }));
     this.#timing();
     this.#choose();
   }
@@ -74,7 +67,7 @@ export class View {
     if (moves) this.#form(moves, this.#entries(state));
     const { time: _, ...question } = this.request(state);
     this.#answers.ask(this.request(state));
-    if (told(question) !== told(this.#asked)) {
+    if (JSON.stringify(question) !== JSON.stringify(this.#asked)) {
       this.#asked = question;
       this.#front = null;
       this.#fronts.ask(question);
@@ -104,8 +97,8 @@ export class View {
   }
 
   #form(study, move) {
-    const machine = flat({ mechanism: move.mechanism ?? {}, drive: move.drive ?? {} }).map(([path]) => told(path));
-    const shape = told([study.move.map(({ name }) => name), Boolean(move.drive), this.#number(this.#state)]);
+    const machine = flat({ mechanism: move.mechanism ?? {}, drive: move.drive ?? {} }).map(([path]) => JSON.stringify(path));
+    const shape = JSON.stringify([study.move.map(({ name }) => name), Boolean(move.drive), this.#number(this.#state)]);
     if (shape !== this.#built || machine.some((path) => !this.#paths.includes(path))) {
       this.#built = shape;
       this.#paths = machine;
@@ -161,13 +154,13 @@ export class View {
   /** One slider of the time, whose stop is the proven least, and beside it the time and the speed as numbers. */
   #timing() {
     const slide = html("input", { type: "range", min: 0, max: 1000, step: 1, "aria-label": "Time of the motion" });
-    const number = (title, of) => {
+    const entered = (title, of) => {
       const field = html("input", { type: "number", min: 0, step: "any", "aria-label": title });
       field.addEventListener("change", () => Number(field.value) > 0 && this.#give(of(Number(field.value))));
       return field;
     };
-    const time = number("Time of the motion, ms", (value) => value / 1000);
-    const speed = number("Motions a minute", (value) => 60 / value);
+    const time = entered("Time of the motion, ms", (value) => value / 1000);
+    const speed = entered("Motions a minute", (value) => 60 / value);
     const stop = html("button", { type: "button", text: "least", title: "The proven least time", onclick: () => this.#give(0) });
     slide.addEventListener("input", () => {
       const [least, longest] = this.#reach();
@@ -179,7 +172,7 @@ export class View {
       const [least, longest] = this.#reach();
       const now = this.#answer?.time ?? least;
       slide.value = Math.round((1000 * Math.log(now / least)) / Math.log(longest / least)) || 0;
-      slide.setAttribute("aria-valuetext", `${word(1000 * now)} ms, ${word(60 / now)} a minute; the least is ${this.#answer?.least?.text ?? ""} ms`);
+      slide.setAttribute("aria-valuetext", `${number(1000 * now, "", 5)} ms, ${number(60 / now, "", 5)} a minute; the least is ${this.#answer?.least?.text ?? ""} ms`);
       if (document.activeElement !== time) time.value = Number((1000 * now).toPrecision(7));
       if (document.activeElement !== speed) speed.value = Number((60 / now).toPrecision(7));
     };
@@ -250,12 +243,12 @@ export class View {
     ];
     const labels = [{ at: [1000 * from, top], text: "proven least time", up: -4 }, ...(least.best_possible === null || from - least.best_possible < 0.09 * (to - first) ? [] : [{ at: [1000 * least.best_possible, top], text: "no law", up: -4 }])].map((one) => ({ ...one, at: [one.at[0] + 0.008 * (x.range[1] - x.range[0]), one.at[1]] }));
     const row = rows.find((one) => one.name.toLowerCase() === minimise);
-    const here = row ? written(row.value) : `${word(value)} ${shown}`;
+    const here = row ? written(row.value) : `${number(value, "", 5)} ${shown}`;
     return {
       x, y, lines, labels,
-      marks: known.map(([at, one]) => ({ at: [1000 * at, one], name: "front-point", title: `${word(1000 * at)} ms: ${word(one)} ${shown}` })),
-      handles: [{ key: "time", at: [1000 * time, value], along: "x", low: 1000 * from, high: 1000 * LONGEST * to, step: 1000 * FINEST, label: "Time of the motion", text: `${word(1000 * time)} ms, ${name} ${here}`, name: "law-0" }],
-      told: `${name} over the time: from ${word(values[0] ?? 0)} ${shown} in ${least.text} ms to ${word(values.at(-1) ?? 0)} ${shown} in ${word(1000 * to)} ms; now ${word(1000 * time)} ms`,
+      marks: known.map(([at, one]) => ({ at: [1000 * at, one], name: "front-point", title: `${number(1000 * at, "", 5)} ms: ${number(one, "", 5)} ${shown}` })),
+      handles: [{ key: "time", at: [1000 * time, value], along: "x", low: 1000 * from, high: 1000 * LONGEST * to, step: 1000 * FINEST, label: "Time of the motion", text: `${number(1000 * time, "", 5)} ms, ${name} ${here}`, name: "law-0" }],
+      told: `${name} over the time: from ${number(values[0] ?? 0, "", 5)} ${shown} in ${least.text} ms to ${number(values.at(-1) ?? 0, "", 5)} ${shown} in ${number(1000 * to, "", 5)} ms; now ${number(1000 * time, "", 5)} ms`,
     };
   }
 

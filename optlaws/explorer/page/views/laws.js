@@ -17,17 +17,9 @@ import { html } from "../svg.js";
 const PICTURES = { "B-C": "C over B", "B-D": "D over B", "B-J": "J over B", "C-D": "D over C", "J-C": "C over J", residual: "residual" };
 
 const element = (id) => document.getElementById(id);
-const told = (value) => JSON.stringify(value);
-
-const FILES = [
-  { kind: "python", text: "Python", about: "Lines that reproduce what is seen" },
-  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws run" },
-  { kind: "law", text: "Law (JSON)", about: "For optlaws law, compare and cycle; a solution with its proof for optlaws verify" },
-  { kind: "table", text: "Table of values (CSV)", about: "k, a, b, c, j and d" },
-];
 
 export class View {
-  files = FILES;
+  files = ["python", "problem", "law", "table"];
   moves = true;
   drawings = "#curves svg";
   #study;
@@ -105,7 +97,7 @@ export class View {
   }
 
   #askLaws(state) {
-    if (told(state.laws) === told(this.#asked) && !this.#laws.behind) this.#render();
+    if (JSON.stringify(state.laws) === JSON.stringify(this.#asked) && !this.#laws.behind) this.#render();
     this.#laws.ask({ laws: state.laws });
   }
 
@@ -118,7 +110,7 @@ export class View {
     // what runs along the front does not change it
     if (law.problem) delete law.problem[over[0]];
     const question = { laws: [law], over };
-    if (told(question) === told(this.#front)) return;
+    if (JSON.stringify(question) === JSON.stringify(this.#front)) return;
     this.#front = question;
     this.#words = "computing the front …";
     element("plane").classList.add("behind");
@@ -169,7 +161,7 @@ export class View {
   }
 
   #near({ ways }, question) {
-    if (told(question.laws) !== told(this.#asked) || question.active !== this.#state.active) return;
+    if (JSON.stringify(question.laws) !== JSON.stringify(this.#asked) || question.active !== this.#state.active) return;
     this.#ways = ways;
     this.#render();
   }

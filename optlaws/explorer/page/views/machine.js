@@ -7,29 +7,23 @@ import { Latest } from "../latest.js";
 import { Linkage } from "../linkage.js";
 import { beside, changeAll } from "../machine_form.js";
 import { Panels } from "../panels.js";
+import { Run } from "../run.js";
 import { Strip } from "../strip.js";
+import { chips, standard } from "../tray.js";
 import { html, renew } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
 import { headed, number, written } from "../units.js";
 
-const told = (value) => JSON.stringify(value);
 const PICTURES = { speed: "torque over speed", ratio: "over the ratio", input: "J and T" };
 const MOST = 4;
 const MOST_AXES = 8;
-const SLOW = 4000; // ms that a cycle takes as it is played
+const SLOW = 4; // s that a cycle takes as it is played
 const SPAN = 3; // ratios from a third of the present one to three times it
 const NEAR = 1.2;
 const MOVES = ["rise", "return", "move"];
-const FILES = [
-  { kind: "python", text: "Python", about: "Lines that reproduce what is seen" },
-  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cycle" },
-  { kind: "table", text: "Table of values (CSV)", about: "Angle, time, motion, torque and power" },
-];
-
-const word = (value) => String(Number(value.toPrecision(4))).replace("-", "−");
 
 export class View {
-  files = FILES;
+  files = ["python", "problem", "table"];
   moves = true;
   drawings = "#machine-curves svg";
   #study;
@@ -69,7 +63,7 @@ export class View {
     this.#machines = new Latest("api/machine", (answer, question) => this.#solved(answer, question), (error, question) => this.#answered(unanswered(error), question));
     this.#earlier = new Latest("api/machine", (answer, question) => this.#evaluated(answer, question), () => this.#solve());
     this.#limits = new Latest("api/machine-limits", (answer, question) => this.#isOfNow(question) && this.#bounded(answer), () => this.#bounded({ moves: [] }));
-    this.#ratios = new Latest("api/machine-ratios", (answer, question) => told(question) === told(this.#asked) && this.#swept(answer), (error) => this.#swept({ ratios: [], words: error.message }));
+    this.#ratios = new Latest("api/machine-ratios", (answer, question) => JSON.stringify(question) === JSON.stringify(this.#asked) && this.#swept(answer), (error) => this.#swept({ ratios: [], words: error.message }));
   }
 
   /** The request to the server, of which files are made too. */
@@ -110,7 +104,7 @@ export class View {
     if (!this.#optimum) return null;
     const { answer: { limiting, optima }, question } = this.#optimum;
     const now = { study: state.machine, axis: state.axis };
-    return told(likeness(now)) === told(likeness(question)) && told(driving(now, limiting)) !== told(driving(question, limiting)) ? optima : null;
+    return JSON.stringify(likeness(now)) === JSON.stringify(likeness(question)) && JSON.stringify(driving(now, limiting)) !== JSON.stringify(driving(question, limiting)) ? optima : null;
   }
 
   #solved(answer, question) {
@@ -129,7 +123,7 @@ export class View {
   }
 
   #isOfNow(question) {
-    return told(question.study) === told(this.#state.machine) && question.axis === this.#state.axis;
+    return JSON.stringify(question.study) === JSON.stringify(this.#state.machine) && question.axis === this.#state.axis;
   }
 
   #answered(answer, question) {
@@ -184,16 +178,12 @@ export class View {
   #tray(state) {
     const { machine, axis } = state;
     const laws = beside(machine, axis).slice(0, MOST);
-    const chips = laws.map((law, i) => {
-      const at = machine.axis.indexOf(law);
-      const none = this.#answer?.laws?.[i]?.refused ? ` (${this.#answer.laws[i].refused.word})` : "";
-      const choose = html("button", { type: "button", class: "choose", "data-key": `law ${i}`, "aria-pressed": String(at === axis), title: `${law.name}${none}`, onclick: () => this.#study.change("axis", (next) => (next.axis = at)) }, html("span", { class: `swatch law-${i}`, text: "ABCD"[i] }), html("span", { class: "chip-name", text: `${law.name}${none}` }));
-      const close = laws.length > 1 ? html("button", { type: "button", class: "close", "data-key": `close ${i}`, "aria-label": `Take ${law.name} away`, text: "×", onclick: () => this.#remove(at) }) : null;
-      return html("span", { class: `chip${at === axis ? " active" : ""}` }, choose, close);
-    });
+    const places = laws.map((law) => machine.axis.indexOf(law));
+    const titles = laws.map(({ name }, i) => (this.#answer?.laws?.[i]?.refused ? `${name} (${this.#answer.laws[i].refused.word})` : name));
+    const shown = chips(titles, places.indexOf(axis), (i) => this.#study.change("axis", (next) => (next.axis = places[i])), (i) => this.#remove(places[i]));
     const others = machine.axis.map((one, i) => [one, i]).filter(([one]) => !beside(machine, axis).includes(one)).map(([one, i]) => html("button", { type: "button", class: "quiet-button", text: one.name, title: "Another machine of this study", onclick: () => this.#study.change("axis", (next) => (next.axis = i)) }));
     const full = laws.length >= MOST || machine.axis.length >= MOST_AXES;
-    renew(this.#at.tray, ...chips, ...(full ? [] : this.#adding()), ...others);
+    renew(this.#at.tray, ...shown, ...(full ? [] : this.#adding()), ...others);
   }
 
   #remove(at) {
@@ -209,11 +199,9 @@ export class View {
       for (const segment of axis.segment) delete segment.law;
       if (axis.minimise === "torque") axis.name = "least peak torque";
     }) });
-    const field = html("input", { list: "names", placeholder: "+ standard law", "aria-label": "Add a standard law to the machine", maxlength: 100 });
-    field.addEventListener("change", () => field.value.trim() && this.#add(field.value.trim(), (axis) => {
-      for (const segment of axis.segment) if (MOVES.includes(segment.kind)) segment.law = field.value.trim();
-    }));
-    return [optimal, field];
+    return [optimal, standard("Add a standard law to the machine", (law) => this.#add(law, (axis) => {
+      for (const segment of axis.segment) if (MOVES.includes(segment.kind)) segment.law = law;
+    }))];
   }
 
   #add(name, alter) {
@@ -278,7 +266,7 @@ export class View {
     const study = structuredClone(state.machine);
     for (const one of beside(study, state.axis)) if (one.drive) delete one.drive.ratio;
     const question = { study, axis: state.axis, low: this.#span[0], high: this.#span[1] };
-    if (told(question) === told(this.#asked)) return;
+    if (JSON.stringify(question) === JSON.stringify(this.#asked)) return;
     this.#asked = question;
     this.#over = null;
     this.#due = true;
@@ -313,8 +301,8 @@ export class View {
       x: { name: "ratio of the gear", range: [low, high], log: true },
       y: { name: "torque at the motor, N m", range: spanOf(shown) },
       lines, labels, marks,
-      handles: [{ key: "ratio", at: [ratio, value], along: "x", low: 0.1, high: 1000, step: Number((low / 200).toPrecision(1)), label: "Ratio of the gear", text: `ratio ${word(ratio)}, ${of === "peak" ? "peak" : "RMS"} torque ${word(value)} N m`, name: `law-${active}` }],
-      told: `Torque at the motor over the ratio of the gear; at ${word(ratio)} it is ${word(value)} N m. ${this.#over?.words ?? ""}`,
+      handles: [{ key: "ratio", at: [ratio, value], along: "x", low: 0.1, high: 1000, step: Number((low / 200).toPrecision(1)), label: "Ratio of the gear", text: `ratio ${number(ratio, "", 4)}, ${of === "peak" ? "peak" : "RMS"} torque ${number(value, "", 4)} N m`, name: `law-${active}` }],
+      told: `Torque at the motor over the ratio of the gear; at ${number(ratio, "", 4)} it is ${number(value, "", 4)} N m. ${this.#over?.words ?? ""}`,
     };
   }
 
@@ -331,51 +319,20 @@ export class View {
   // --- the cycle as it runs ---
 
   #playing() {
-    const dial = html("input", { type: "range", min: 0, max: 1000, step: 1, value: 0, "aria-label": "Time in the cycle, thousandths" });
+    const { cursor } = this.#curves;
     const reading = html("span", { class: "reading quiet" });
-    let playing = null;
-    const at = (share) => {
-      this.#linkage.at(share);
+    const show = (time) => {
       const drawing = this.#answer?.drawing;
       if (!drawing) return;
-      const input = drawing.input[Math.round(share * (drawing.input.length - 1))];
-      reading.textContent = `${Math.round(share * drawing.duration)} ms · ${written({ value: input, unit: drawing.axis === "angle" ? "deg" : "mm", digits: 4 })}`;
-      dial.setAttribute("aria-valuetext", reading.textContent);
-    };
-    this.#still = () => at(Number(dial.value) / 1000);
-    const placed = (share) => {
-      const drawing = this.#answer?.drawing;
-      if (drawing) this.#curves.cursor.point(share * drawing.duration);
-      else at(share);
-    };
-    this.#curves.cursor.watch((time) => {
-      const drawing = this.#answer?.drawing;
-      if (time === null || !drawing) return;
       const share = Math.min(1, Math.max(0, time / drawing.duration));
-      dial.value = Math.round(1000 * share);
-      at(share);
-    });
-    dial.addEventListener("input", () => placed(Number(dial.value) / 1000));
-    const stop = () => {
-      cancelAnimationFrame(playing);
-      playing = null;
-      play.textContent = "Play";
-      return null;
+      this.#linkage.at(share);
+      const input = drawing.input[Math.round(share * (drawing.input.length - 1))];
+      reading.textContent = `${Math.round(time)} ms · ${written({ value: input, unit: drawing.axis === "angle" ? "deg" : "mm", digits: 4 })}`;
     };
-    const start = () => {
-      play.textContent = "Pause";
-      let last = performance.now();
-      let share = Number(dial.value) / 1000;
-      const step = (now) => {
-        share = (share + (now - last) / SLOW) % 1;
-        last = now;
-        placed(share);
-        playing = this.#at.root.hidden ? stop() : requestAnimationFrame(step);
-      };
-      playing = requestAnimationFrame(step);
-    };
-    const play = html("button", { type: "button", text: "Play", onclick: () => (playing === null ? start() : stop()) });
-    this.#at.turning.replaceChildren(play, dial, reading);
+    this.#still = () => show(cursor.at ?? 0);
+    cursor.watch((time) => time !== null && show(time));
+    new Run(this.#at.turning, "Time in the cycle, thousandths", cursor, { text: "Play", end: () => this.#answer?.drawing?.duration ?? 1, steps: 1000, seconds: SLOW, spoken: () => reading.textContent });
+    this.#at.turning.append(reading);
   }
 }
 
