@@ -13,6 +13,7 @@ import pytest
 
 import optlaws
 import optlaws.typing
+from docs._ext.made_parts import with_parts
 from optlaws import InputError
 from tests.documents import ROOT
 from tests.internals.entries import Declared
@@ -239,9 +240,8 @@ def test_the_table_of_constants_names_each_public_one() -> None:
 
 
 def test_the_page_of_types_names_each_of_them_and_the_words_of_each_choice() -> None:
-    rows = re.findall(
-        r"^\| (`.*?) \| (.*?) \|", (ROOT / "docs/reference/api/typing.md").read_text("utf-8"), re.MULTILINE
-    )
+    page = with_parts("reference/api/typing", (ROOT / "docs/reference/api/typing.md").read_text("utf-8"))
+    rows = re.findall(r"^\| (`.*?) \| (.*?) \|", page, re.MULTILINE)
     words = {name: re.findall("`(.*?)`", row) for names, row in rows for name in re.findall("`(.*?)`", names)}
     assert sorted(words) == sorted(vars(optlaws.typing)["__all__"])
     for name, listed in words.items():

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
+from inspect import getdoc
+from typing import TYPE_CHECKING, Any, Literal, get_args, get_origin
 
 from docs._ext.entry_tables import TABLES
 from docs._ext.module_tree import tree
 from docs._ext.option_tables import option_tables
-from optlaws import catalogue
+from optlaws import catalogue, typing
 from optlaws.cli.app import COMMANDS
 
 if TYPE_CHECKING:
@@ -30,10 +31,30 @@ def catalogue_table() -> str:
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
+def _types() -> dict[str, Any]:
+    """The types of optlaws.typing by their names."""
+    return {name: getattr(typing, name) for name in sorted(vars(typing)["__all__"])}
+
+
+def choices() -> str:
+    """The types of strings with a few choices, and their words."""
+    words = {name: get_args(kind) for name, kind in _types().items() if get_origin(kind) is Literal}
+    rows = [f"| `{name}` | {', '.join(f'`{word}`' for word in some)} |" for name, some in words.items()]
+    return "\n".join(["| Name | Words |", "|---|---|", *rows])
+
+
+def values() -> str:
+    """The classes that annotations name, with the first sentence of each."""
+    classes = {name: kind for name, kind in _types().items() if isinstance(kind, type) and kind is not Any}
+    rows = [f"| `{name}` | {str(getdoc(kind)).partition(chr(10))[0]} |" for name, kind in classes.items()]
+    return "\n".join(["| Name | What it is |", "|---|---|", *rows])
+
+
 #: by the page the parts, and by the mark of each what makes it
 PARTS: Mapping[str, Mapping[str, Callable[[], str]]] = {
     "architecture": {"<!-- the tree -->": tree},
     "how-to/catalogue": {"<!-- the catalogue -->": catalogue_table},
+    "reference/api/typing": {"<!-- the choices -->": choices, "<!-- the values -->": values},
     "reference/problem-files": {f"<!-- entries of {name} -->": made for name, made in TABLES.items()},
     "reference/command-line": {f"<!-- options of {name} -->": partial(option_tables, name) for name in COMMANDS},
 }
