@@ -20,22 +20,10 @@ from optlaws import (
     least_prime_circle,
 )
 from tests.external.published import REFERENCE, cases, numbers
+from tests.external.test_university_cams import moves
 
 CAMS = json.loads((REFERENCE / "published_cams.json").read_text(encoding="utf-8"))
 LEUVEN = [name for name in CAMS if name != "about"]
-
-
-def _cycloids(name: str) -> list[Dwell | Move]:
-    law = "cycloidal"
-    if name == "SV":
-        falls: list[Dwell | Move] = [
-            Return("20 mm", "50 deg", law=law),
-            Dwell("10 deg"),
-            Return("20 mm", "85 deg", law=law),
-        ]
-        return [Rise("40 mm", "100 deg", law=law), *falls, Dwell()]
-    rise, fall = Rise("30 mm", "120 deg", law=law), Return("30 mm", "80 deg", law=law)
-    return [Dwell("60 deg"), rise, Dwell("20 deg"), fall, Dwell()]
 
 
 @pytest.fixture(scope="module", params=LEUVEN)
@@ -43,7 +31,7 @@ def leuven(request: pytest.FixtureRequest) -> tuple[dict[str, Any], DiscCam]:
     """A cam of the MATLAB program matcam, and the same of ours."""
     case = CAMS[request.param]
     roller = TranslatingRoller(f"{case['rof']} mm", offset=f"{case['exc']} mm")
-    cycle = Cycle(_cycloids(request.param), speed=f"{case['rpm']} rpm")
+    cycle = Cycle(moves(request.param), speed=f"{case['rpm']} rpm")
     return case, DiscCam(cycle, prime_radius=f"{case['bcr'] + case['rof']} mm", follower=roller)
 
 
@@ -87,7 +75,7 @@ def test_contact_forces_of_matcam(leuven: tuple[dict[str, Any], DiscCam]) -> Non
 
 def test_a_contact_force_below_zero_is_reported() -> None:
     roller = TranslatingRoller("40 mm", offset="2.8 mm")
-    cam = DiscCam(Cycle(_cycloids("SV"), speed="600 rpm"), prime_radius="70 mm", follower=roller)
+    cam = DiscCam(Cycle(moves("SV"), speed="600 rpm"), prime_radius="70 mm", follower=roller)
     forces = CamForces(cam, drive={"mass": "1.8 kg", "stiffness": "18.5 N/mm", "preload": "319.16 N"})
     assert forces.lifts_off
     assert forces.contact.least == pytest.approx(-153.1844, abs=1e-4)
