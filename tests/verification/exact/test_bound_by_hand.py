@@ -6,7 +6,7 @@ with c = 2 P3(x), x = 2k - 1.
 
 from dataclasses import replace
 from fractions import Fraction
-from math import inf, nextafter, sqrt
+from math import inf, nextafter
 from typing import Any
 
 import pytest
@@ -27,24 +27,15 @@ from optlaws import (
 from optlaws.verification import exact_bound
 from tests.internals.synthesis import RELAXED, VIOLATION, expression, spread
 from tests.internals.verification import ExactRows, prove
+from tests.synthesis.proof.test_certificate_by_hand import C_BASE, FLAT, GAUSS, J_BASE, c_at, j_at
 
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
-GAUSS, FLAT = sqrt(0.6), sqrt(0.2)
-C_BASE, J_BASE = 6.0 * GAUSS, 12.0
 MOVING = {"boundary": BoundaryConditions((0, 0.5), (1, -1)), "symmetric": False}
 
 
 def small(**asked: Any) -> Problem:
     order: dict[str, Any] = {} if "boundary" in asked else {"order": 2}
     return Problem(**{**order, "basis": Chebyshev(1), **asked})
-
-
-def c_at(x: float, multiplier: float) -> Contact:
-    return Contact("C", 1.0 if x < 0.0 else -1.0, (1.0 + x) / 2.0, multiplier)
-
-
-def j_at(x: float, multiplier: float) -> Contact:
-    return Contact("J", -1.0, (1.0 + x) / 2.0, multiplier)
 
 
 def proven(problem: Problem, *contacts: Contact, equations: tuple[float, ...] = ()) -> float:
