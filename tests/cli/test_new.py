@@ -93,7 +93,7 @@ def command_of(out: str) -> list[str]:
     return arguments
 
 
-SLOW = {"cycle", "machine", "study"}
+SLOW = {"cycle", "machine", "mechanism", "study"}
 AS_WRITTEN = [(kind, options) for kind in STARTERS for options in ([], OWN[kind])]
 
 

@@ -205,7 +205,7 @@ def test_a_solution_is_shown_as_its_problem_and_a_law_as_itself(tmp_path: Path) 
         ("cam_best_laws/cam", "cam"),
         ("cycle_press/cycle", "cycle"),
         ("cycle_belt_lift/cycle", "machine"),
-        ("cycle_rocker/cycle", "machine"),
+        pytest.param("cycle_rocker/cycle", "machine", marks=pytest.mark.long),
         ("cycle_die_and_table/cycle", "axes"),
         ("cycle_fastest/fastest", "laws"),
         ("fastest_pick/fastest", "laws"),
