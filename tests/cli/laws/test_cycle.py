@@ -114,7 +114,7 @@ def test_files_that_a_file_names_are_beside_it(
         assert exit_code(command.format("../drawing/press.toml").split()) == 0
     data = json.loads(Path("results", "cycle.json").read_text("utf-8"))
     assert data["axes"]["slide"]["segments"][0]["velocity"] == pytest.approx(0.35 * 1.759603, rel=5e-3)
-    (shown,) = start("../drawing/press.toml")["cycle"]["axis"]
+    (shown,) = start("../drawing/press.toml")["machine"]["axis"]
     assert shown["segment"][0]["law"].startswith("{")
     (drawing / "better.json").unlink()
     (drawing / "old.csv").unlink()
