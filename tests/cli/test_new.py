@@ -242,3 +242,13 @@ def test_what_binds_the_overlap_of_two_axes_is_their_interlocks(capsys: Capture)
     Path("b.toml").write_text(re.sub(r"(?m)^overlap = .*", 'overlap = { goal = "period" }', text), "utf-8")
     assert exit_code(["run", "b.toml"]) == 2
     assert "nothing bounds the period" in capsys.readouterr().err
+
+
+def test_a_drive_begins_with_nothing_worse_than_by_modified_sine(capsys: Capture) -> None:
+    assert exit_code(["new", "drive", "a.toml", "--friction", "4 N m"]) == 0
+    assert exit_code(["run", "a.toml"]) == 0
+    rows = re.findall(r"(?m)^\| ([\w ]+?) +\| [\d.]+ +\| [\d.]+ +\| (same|[-+][\d.]+) ", capsys.readouterr().out)
+    gains = {name: 0.0 if gain == "same" else float(gain) for name, gain in rows}
+    assert {"torque", "rms torque", "power", "energy", "velocity"} <= gains.keys()
+    assert max(gains.values()) <= 0.0
+    assert min(gains["rms torque"], gains["power"], gains["energy"]) < -1.0

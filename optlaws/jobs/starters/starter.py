@@ -171,10 +171,11 @@ def _of_cam(answers: Answers) -> Answers:
 
 
 def _of_drive(answers: Answers) -> Answers:
-    """Modified sine's jerk as the limit unless one is given."""
+    """Modified sine's acceleration and jerk as limits unless a jerk is given."""
     stroke = quantity(answers["stroke"], "angle", "--stroke")
-    usual = _peaks_of_usual(("angle", stroke), _si(answers, "duration")[1])["jerk"]
-    return {"jerk": answers["jerk"] or usual, "modified_sine_jerk": usual}
+    usual = _peaks_of_usual(("angle", stroke), _si(answers, "duration")[1])
+    limits = {"acceleration": usual["acceleration"], "jerk": answers["jerk"] or usual["jerk"]}
+    return {**limits, "modified_sine_jerk": usual["jerk"]}
 
 
 def _of_mechanism(answers: Answers) -> Answers:
