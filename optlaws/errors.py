@@ -23,6 +23,20 @@ class OptlawsError(Exception):
     """
 
 
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C in work whose results so far are its `partial` result.
+
+    Attributes
+    ----------
+    partial
+        A result of the kind that the work would have given, of what was computed by then.
+    """
+
+    def __init__(self, text: str, partial: Any) -> None:
+        super().__init__(text)
+        self.partial = partial
+
+
 class InputError(OptlawsError, ValueError):
     """An input is wrong; the message names the input, its value and its allowed values.
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.entries.declared import ValueOf
-from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure, located, needed
+from optlaws.errors import InfeasibleProblem, InputError, Interrupted, OptlawsError, SolverFailure, located, needed
 from optlaws.files.reading import JsonText, entries_of
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
@@ -416,18 +416,28 @@ class _Curve:
         """Add points to the most important gaps, until the number of nondominated points is reached."""
         if count >= _MANY and self._problem(self.points[0][0]).convex:
             self._grow_together(count)
+        try:
+            return self._grown(count)
+        except KeyboardInterrupt:
+            text = f"the front was stopped after {len(self.points)} of {count} points"
+            raise Interrupted(text, self._front()) from None
+
+    def _grown(self, count: int) -> Front:
         with Steps(f"least {self.over[1]} over {self.over[0]}", count) as steps:
-            undominated_points: list[Solution] = []
             sought = count
-            while len(undominated_points) < count:
+            while True:
                 while len(self.points) < sought and self._halve():
                     steps.reach(min(len(self.points), count))
-                undominated_points = undominated([solution for _, solution in self.points], self.over, self._known())
-                if len(self.points) < sought or sought >= _AGAIN * count:
-                    break
+                front = self._front()
+                if len(front) >= count or len(self.points) < sought or sought >= _AGAIN * count:
+                    return front
                 # of local optima some are worse than others: as many more are sought
-                sought += count - len(undominated_points)
-        return Front(self.over, tuple(undominated_points), self.errors)
+                sought += count - len(front)
+
+    def _front(self) -> Front:
+        """The nondominated ones of the points so far."""
+        solutions = [solution for _, solution in self.points]
+        return Front(self.over, tuple(undominated(solutions, self.over, self._known())), self.errors)
 
     def _halve(self) -> bool:
         """Add a point to the most important gap; False without such a gap."""

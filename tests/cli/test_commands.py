@@ -16,6 +16,7 @@ from optlaws import BoundaryConditions, MotionLaw, Problem, Solution, SolverFail
 from tests.documents import ROOT
 from tests.internals.cli import COMMANDS, RETIRED, exit_code
 from tests.internals.cli import app_of_cli as app
+from tests.internals.cycles import Candidates
 from tests.jobs.examples import SOLUTIONS, SOLUTIONS_PRINTED
 
 KEYS = ["status", "objective", "lower_bound", "gap", "best_possible", "constants", "z", "law", "iterations", "seconds"]
@@ -138,6 +139,35 @@ def test_an_interrupt_ends_with_130(capsys: Capture, monkeypatch: pytest.MonkeyP
 
     monkeypatch.setattr(optlaws, "synthesize", interrupted)
     assert refused(capsys, *SOLVE, code=130) == "optlaws: interrupted\n"
+
+
+def test_advice_and_a_front_that_are_stopped_show_what_there_is(
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    solve, counted = optlaws.synthesize, iter(range(7))
+
+    def stopped(*given: Any, **options: Any) -> Solution:
+        if next(counted, None) is None:
+            raise KeyboardInterrupt
+        return solve(*given, **options)
+
+    monkeypatch.setattr("optlaws.synthesis.pareto.synthesize", stopped)
+    assert exit_code(["front", "--points", "9", "--order", "4", "--degree", "5", "--over", "C,D"]) == 130
+    shown = capsys.readouterr()
+    assert "optlaws: the front was stopped after" in shown.err
+    assert len([line for line in shown.out.splitlines() if line.endswith("local")]) >= 3
+    within, named = Candidates._within, iter(range(3))
+
+    def beyond(*given: Any) -> Any:
+        if next(named, None) is None:
+            raise KeyboardInterrupt
+        return within(*given)
+
+    monkeypatch.setattr(Candidates, "_within", beyond)
+    assert exit_code(["advise", "--stroke", "35mm", "--duration", "0.1s", "--degree", "9"]) == 130
+    shown = capsys.readouterr()
+    assert "was stopped after" in shown.err
+    assert "least acceleration" in shown.out
 
 
 @pytest.mark.parametrize("arguments", [["bogus"], ["solv"], ["--bogus"]])

@@ -6,12 +6,14 @@ from typing import Any
 
 import numpy as np
 
+from optlaws.cycles.advising.candidates import Candidates
 from optlaws.cycles.answers import Answers, answer
 from optlaws.cycles.axes.enclosed import SimplePolygon
 from optlaws.cycles.old_tables.better_laws import nothing_to_better
 from optlaws.cycles.old_tables.reading import points_in
 from optlaws.cycles.old_tables.stated_functions import stretches_of_pieces
 from optlaws.cycles.old_tables.stretches import law_of_move, position
+from optlaws.cycles.optimisation import optimal
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.optimisation.optimal import halved
 from optlaws.cycles.optimisation.shared_limits import _SharedLimit as SharedLimit

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import nullcontext
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import optlaws
+from optlaws.cli.app import Stopped
 from optlaws.cli.law_options import LIMITS, one_or_two, read_axes
 from optlaws.cli.options import Signed, Written, given, options, takes
 from optlaws.cli.show import Answer, save
-from optlaws.errors import InputError, located
+from optlaws.errors import InputError, Interrupted, located
 
 if TYPE_CHECKING:
     from optlaws.cycles.advising.advice import Advice
@@ -66,17 +69,22 @@ def advise(
     if file is not None and given({**move, "mass": mass}):
         raise InputError("--stroke, --duration and --mass are of a single move: a file has its own")
     wishes = given(wishes)
-    if file is None:
-        advice = {"": _of_move(**move, mass=mass, wishes=wishes)}
-    else:
-        advice = {}
-        for name, cycle in read_axes(file, axis, "cam").items():
-            with located(f"{file}: axis {name}"):
-                advice[name] = optlaws.advise(cycle, **wishes)
+    advice: dict[str, Advice] = {}
+    failure: Stopped | None = None
+    ways: dict[str, Callable[[], Advice]] = {"": lambda: _of_move(**move, mass=mass, wishes=wishes)}
+    if file is not None:
+        ways = {name: partial(optlaws.advise, cycle, **wishes) for name, cycle in read_axes(file, axis, "cam").items()}
+    for name, make in ways.items():
+        try:
+            with located(f"{file}: axis {name}") if file is not None else nullcontext():
+                advice[name] = make()
+        except Interrupted as stopped:
+            advice[name], failure = stopped.partial, Stopped(str(stopped))
+            break
     if output is not None:
         proofs = {name: each.proofs() for name, each in advice.items()}
         save(output, {"axes": proofs} if file is not None else {"move": proofs[""]})
-    return Answer(lambda: _shown(advice), lambda: _data(advice, alone=file is None), lambda: _drawn(advice))
+    return Answer(lambda: _shown(advice), lambda: _data(advice, alone=file is None), lambda: _drawn(advice), failure)
 
 
 def _data(advice: Mapping[str, Advice], *, alone: bool) -> dict[str, Any]:

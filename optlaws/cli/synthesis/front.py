@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, Literal
 
 import optlaws
+from optlaws.cli.app import Stopped
 from optlaws.cli.options import Written, options, takes
 from optlaws.cli.problem_options import problem_options
 from optlaws.cli.show import Answer, exported
-from optlaws.errors import InputError
+from optlaws.errors import InputError, Interrupted, OptlawsError
 from optlaws.numbers import positive, whole
 from optlaws.synthesis.problem.named_constants import apart
 
@@ -65,8 +67,12 @@ def front(
     proven_to = positive(within, "within") / 10.0 if to and gap is None else gap
     problem, names = optlaws.Problem.from_dict(entries), tuple(apart(over or ("at_most.B,C" if to else "B,C")))
     front: optlaws.Front | optlaws.ProvenFront
+    failure: OptlawsError | None = None
     if proven_to is None:
-        front = optlaws.pareto_front(problem, names, **curve, bound=bound)
+        try:
+            front = optlaws.pareto_front(problem, names, **curve, bound=bound)
+        except Interrupted as stopped:
+            front, failure = stopped.partial, Stopped(str(stopped))
     else:
         front = optlaws.proven_front(problem, names, between=curve["between"], gap=proven_to)
     points = whole(curve["points"], "points", least=2)
@@ -78,4 +84,4 @@ def front(
         writing.write(csv, tables.to_csv(*report.tables[0], about=f"{' and '.join(front.over)} exchanged: {stated!r}"))
     if to is not None and isinstance(front, optlaws.ProvenFront):
         return exported(front.export(to, within, name=name), output, front.plot)
-    return Answer.of(report, front.plot)
+    return replace(Answer.of(report, front.plot), failure=failure)

@@ -17,7 +17,7 @@ from optlaws.cycles.specification.limits import AXES
 from optlaws.cycles.specification.programme import axis_of, period_of
 from optlaws.cycles.specification.segments import Move, Return
 from optlaws.echo import shortened, unknown_key
-from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located, needed
+from optlaws.errors import InfeasibleProblem, InputError, Interrupted, OptlawsError, located, needed
 from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.laws.catalogue.reading import read_law
 from optlaws.mechanisms.drives.drive_train import Drive
@@ -376,8 +376,14 @@ def advise(
     count = whole(points, "points", least=0, most=_MOST_POINTS)
     entries = {"minimise": minimise, "drive": drive, "speed": speed, "degree": degree}
     candidates = standard_candidates(motion, limits=limits, follower=follower, laws=laws, **entries)
-    candidates.add_optimal()
-    return advice_from(candidates, count)
+    try:
+        candidates.add_optimal()
+        return advice_from(candidates, count)
+    except KeyboardInterrupt:
+        if candidates.proven is None:
+            raise
+        text = f"the advice was stopped after {len(candidates.laws)} laws and {len(candidates.exchanged)} points"
+        raise Interrupted(text, _of_known(candidates, tuple(candidates.exchanged))) from None
 
 
 def standard_candidates(
@@ -424,7 +430,10 @@ def standard_candidates(
 
 def advice_from(candidates: Candidates, points: int) -> Advice:
     """The advice that standard and optimal laws give, with so many points of the front; 0 for none."""
-    front = candidates.front(points) if points > 1 else ()
+    return _of_known(candidates, candidates.front(points) if points > 1 else ())
+
+
+def _of_known(candidates: Candidates, front: tuple[AdvisedLaw, ...]) -> Advice:
     return Advice(
         candidates.minimise,
         candidates.second,

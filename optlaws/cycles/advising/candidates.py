@@ -198,6 +198,7 @@ class Candidates:
     #: whether nothing is to grow beyond the usual law: not where that breaks limits, and others would take more
     guarding: bool = True
     proven: AdvisedLaw | None = None  #: whose proof says how good any could be
+    exchanged: list[AdvisedLaw] = field(default_factory=list)  #: the laws of the front so far
 
     @kept_property
     def measures(self) -> tuple[LawMeasure, ...]:
@@ -327,15 +328,15 @@ class Candidates:
             return ()
         high, low = (end.values[second] for end in ends)
         low = max(low * (1.0 + BOUND_SLACK), _FRONT_END * high)
-        points_of_front = [ends[0]]
+        self.exchanged = [ends[0]]
         for i in range(1, points if low < high else 0):
             value = high * (low / high) ** (i / (points - 1))
             name = f"least {minimise} at a {second} of {value:.4g}"
             try:
-                points_of_front.append(self._within(name, minimise, {**most, second: value}))
+                self.exchanged.append(self._within(name, minimise, {**most, second: value}))
             except OptlawsError as error:
                 self.errors[name] = error
-        return tuple(points_of_front)
+        return tuple(self.exchanged)
 
     @property
     def _twice(self) -> float:

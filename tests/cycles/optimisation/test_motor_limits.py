@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from optlaws import Cycle, Drive, Dwell, InfeasibleProblem, InputError, Mechanism, Motor, Rise
-from optlaws.cycles.optimisation import optimal
+from tests.internals.cycles import optimal
 
 TABLE = Mechanism("0.8 kg m^2")
 FALLING = [("0 rpm", "2.8 N m"), ("700 rpm", "2.8 N m"), ("1100 rpm", "0.4 N m")]
