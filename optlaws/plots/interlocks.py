@@ -162,8 +162,11 @@ def _clearances(report: AxesReport, axes: Any, style: dict[str, Any]) -> list[Ar
             below: Any = {"color": WARM, "alpha": 0.25, "linewidth": 0.0}
             artists.append(each.fill_between(scale * curve.at, np.minimum(curve.values, 0.0), 0.0, **below))
         artists += _least(each, least, (least.angle, panel.peaks[0][1]), right=least.angle < 0.6 * TURN_DEG)
-        each.set_title(least.interlock.label, fontsize=8.5, color=GREY)
-        each.set_ylabel(f"clearance, {panel.unit}")
+        rule = least.interlock
+        # before its position the other axis may be wherever nothing passes
+        of = f": how far {rule.of} is beyond its position" if isinstance(rule, After) else ""
+        each.set_title(f"{rule.label}{of}", fontsize=8.5, color=GREY)
+        each.set_ylabel(panel.unit if of else f"clearance, {panel.unit}")
     several[-1].set(xlabel="master, deg", xlim=(0.0, TURN_DEG))
     several[-1].set_xticks(np.arange(0.0, TURN_DEG + 1.0, 30.0))
     return artists

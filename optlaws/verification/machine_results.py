@@ -318,8 +318,8 @@ def _interlocks(axes: Any) -> Iterator[Claim]:
 
 
 def _bound(overlap: Any) -> Claim:
-    """The claim that no other instants have less, sought again."""
-    name = "no other instants"
+    """The claim that no instants have less than the lower bound, which is computed again."""
+    name = "lower bound over all instants"
     try:
         again = overlap.again()
     except OptlawsError as error:

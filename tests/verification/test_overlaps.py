@@ -24,7 +24,7 @@ def test_an_overlap_is_read_again_and_partly_checked(goal: str, tmp_path: Path) 
     assert verification.proven
     assert [claim.name for claim in verification.unchecked] == [
         f"the {goal}",
-        "no other instants",
+        "lower bound over all instants",
         "what leaves no room",
     ]
     file = tmp_path / "overlap.json"

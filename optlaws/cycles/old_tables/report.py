@@ -65,7 +65,8 @@ class OldTableReport:
             for part in old.stretches
         ]
         stretches = ReportTable(["what", *ends, f"by, {old.unit}", "law"], rows)
-        gains = ["what", *ends, "peak", "old", "new", "unit", "least, %", "most, %", "change, %", f"off by, {old.unit}"]
+        change = ["change at least, %", "at most, %", "change, %"]
+        gains = ["what", *ends, "peak", "old", "new", "unit", *change, f"off by, {old.unit}"]
         return (stretches, ReportTable(gains, new)) if new else (stretches,)
 
     def _gains(self) -> list[list[Any]]:
