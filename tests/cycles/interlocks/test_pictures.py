@@ -64,7 +64,7 @@ def test_clearances_are_drawn_over_the_master() -> None:
     artists = PAIR.plot(what="clearance")
     panels = artists[0].figure.axes
     assert len(panels) == len(RULES)
-    assert panels[1].get_title() == "back"
+    assert panels[1].get_title() == "back: how far z is beyond its position"
     for panel, least in zip(panels[2:], PAIR.clearances[2:], strict=True):
         drawn = panel.lines[0].get_ydata()
         assert np.nanmin(drawn) == pytest.approx(1e3 * least.clearance, abs=1e-2 * np.nanmax(np.abs(drawn)))
