@@ -11,8 +11,9 @@ from optlaws.cams import at_shaft  # noqa: F401 - by which the kind "cam" is kno
 from optlaws.cycles.axes.interlock import INTERLOCKS, Interlock
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.load import ElasticFollower
+from optlaws.cycles.specification.periods import duration_range
 from optlaws.cycles.specification.programme import period_of
-from optlaws.cycles.specification.segments import CycleSegment, Transition
+from optlaws.cycles.specification.segments import CycleSegment, Dwell, Transition
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry, frozen, same, thawed
 from optlaws.entries.value_types import Choice, Either, Listed, Number, ReadBy, Switch, Text, Whole
@@ -24,6 +25,7 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.motor import read_motors
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
+from optlaws.motion.quantities import Exact
 from optlaws.numbers import NumberOrQuantity, Quantity
 
 if TYPE_CHECKING:
@@ -196,8 +198,24 @@ def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, A
     with located(str(file)):
         for axis in spec.axis:
             with located(f"axis {axis.name}"):
-                cycles[axis.name] = cycle_of(axis, spec.speed, spec.period)
+                sought = spec.overlap is not None and spec.overlap.goal == "period"
+                timed = _waiting(axis, period_of(spec.speed, spec.period)) if sought else axis
+                cycles[axis.name] = cycle_of(timed, spec.speed, spec.period)
         return spec, Axes(cycles, interlocks=spec.interlocks)
+
+
+def _waiting(axis: AxisEntries, period: float) -> AxisEntries:
+    """The axis whose dwells without durations only wait: where there are several, they begin with equal parts."""
+    known = sum(duration_range(each.duration, axis.name).least.at(period) for each in axis.segment)
+    free = [each for each in axis.segment if each.duration is None]
+    if len(free) < 2 or known >= period:
+        return axis
+    part = Exact((period - known) / len(free), "s")
+    waits = [isinstance(each, Dwell) and each.duration is None for each in axis.segment]
+    segments = list[Any](axis.segment)
+    for i in (i for i, waiting in enumerate(waits) if waiting):
+        segments[i] = replace(segments[i], duration=part, least=segments[i].least or "0 s")
+    return replace(axis, segment=tuple(segments))
 
 
 def cycle_of(axis: AxisEntries, speed: NumberOrQuantity | None, period: NumberOrQuantity | None) -> Cycle:

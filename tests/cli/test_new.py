@@ -242,6 +242,16 @@ def test_what_binds_the_overlap_of_two_axes_is_their_interlocks(capsys: Capture)
     Path("b.toml").write_text(re.sub(r"(?m)^overlap = .*", 'overlap = { goal = "period" }', text), "utf-8")
     assert exit_code(["run", "b.toml"]) == 2
     assert "nothing bounds the period" in capsys.readouterr().err
+    limited = Path("b.toml").read_text("utf-8")
+    for name, limit in (("slide", "20 m/s^2"), ("table", "50 rad/s^2")):
+        limited = limited.replace(f'name = "{name}"', f'name = "{name}"\nlimits = {{ acceleration = "{limit}" }}')
+    periods = set()
+    # a dwell that only waits needs no duration
+    for text in (limited, re.sub('(?m)^duration = .*\nleast = "0 s"\n', "", limited)):
+        Path("c.toml").write_text(text, "utf-8")
+        assert exit_code(["run", "c.toml", "--force"]) == 0
+        periods.add(re.search(r"least period +\| ([\d.]+)", capsys.readouterr().out)[1])  # type: ignore[index] # a row
+    assert len(periods) == 1
 
 
 def test_a_drive_begins_with_nothing_worse_than_by_modified_sine(capsys: Capture) -> None:
