@@ -324,8 +324,8 @@ def _bound(overlap: Any) -> Claim:
         again = overlap.again()
     except OptlawsError as error:
         return Claim(name, proven=False, detail=str(error))
-    found = f"{again.lower_bound!r} by the same search in doubles, whose branches leave no certificate"
-    detail = f"{overlap.lower_bound!r} stated, {found}"
+    second = f"{again.lower_bound!r} by the same search in doubles, whose branches leave no certificate"
+    detail = f"{overlap.lower_bound!r} stated, {second}"
     low = overlap.lower_bound <= again.lower_bound * (1.0 + STORED_VALUE)
     agrees = low and overlap.objective >= again.lower_bound * (1.0 - STORED_VALUE)
     return Claim(name, proven=False, detail=detail, checked=not agrees)
