@@ -69,7 +69,9 @@ def answer(question: FileRequest) -> dict[str, str]:
 
         of = titled(request.law) if isinstance(request, LawsRequest) else request.study.get("title", "A motion")
         name = f"{_stem(question.name or of)}.html"
-        text = printable_page(question.name or of, result(request).report(), question.notes)
+        text = printable_page(
+            question.name or of, result(request).report(), f"optlaws {optlaws.__version__}\n{question.notes}"
+        )
     else:
         name, text = kinds[question.kind](request)
     return {"name": name, "type": guess_type(name)[0] or "text/plain", "text": text}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from base64 import b64encode
 from collections.abc import Sequence
-from importlib.metadata import version
 from itertools import groupby, pairwise
 from math import isfinite
 from typing import TYPE_CHECKING, Any, cast
@@ -92,16 +91,8 @@ def printable_page(title: object, report: Report, notes: str = "") -> str:
     grouped = groupby(report.panels, lambda panel: panel.across)
     pictures = [_picture(list(panels), report.segments) for _, panels in grouped]
     head = f'<meta charset="utf-8"><title>{cell(title)}</title><style>{_PRINTED}</style>'
-    said = [f"<p>{cell(line)}</p>" for line in notes.splitlines()]
-    body = "".join(
-        [
-            f"<h1>{cell(title)}</h1><p>optlaws {version('optlaws')}</p>",
-            *said,
-            report.facts._repr_html_(),
-            *tables,
-            *pictures,
-        ]
-    )
+    lines = "".join(f"<p>{cell(line)}</p>" for line in notes.splitlines())
+    body = "".join([f"<h1>{cell(title)}</h1>{lines}", report.facts._repr_html_(), *tables, *pictures])
     return f'<!doctype html>\n<html lang="en"><head>{head}</head><body>{body}</body></html>\n'
 
 
