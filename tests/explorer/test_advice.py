@@ -146,7 +146,7 @@ def test_a_follower_is_switched_on(page: Page, served: Server) -> None:
 def test_standard_laws_are_there_before_those_that_are_searched_for(page: Page, served: Server) -> None:
     machine = start(str(PROBLEMS / "cycle_rocker.toml"))["machine"]
     quick = served.ask("advice-standard", {"study": machine})
-    page.goto(served.link(laws=[OPTIMAL], view="advice", machine=machine, advice={"of": "machine"}))
+    page.goto(served.link(laws=[OPTIMAL], view="advice", machine=machine))
     page.locator("#advice-words").get_by_role("button", name="Stop").click()
     page.locator("#advice-words").get_by_role("button", name="Go on").wait_for()
     settle(page)

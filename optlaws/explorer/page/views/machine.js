@@ -7,6 +7,7 @@ import { Latest } from "../latest.js";
 import { Linkage } from "../linkage.js";
 import { beside, changeAll } from "../machine_form.js";
 import { Panels } from "../panels.js";
+import { table } from "../report_table.js";
 import { Run } from "../run.js";
 import { Strip } from "../strip.js";
 import { chips, standard } from "../tray.js";
@@ -15,6 +16,7 @@ import { showTrust, unanswered } from "../trust.js";
 import { headed, number, written } from "../units.js";
 
 const PICTURES = { speed: "torque over speed", ratio: "over the ratio", input: "J and T" };
+const LEAST = "What no law that never turns back can beat in each move";
 const MOST = 4;
 const MOST_AXES = 8;
 const SLOW = 4; // s that a cycle takes as it is played
@@ -152,7 +154,7 @@ export class View {
     if (!this.#answer) return;
     const { refused, panels, over_input: overInput } = this.#answer;
     this.#curves.show(refused ? this.#answer : { ...this.#answer, panels: panels.map((panel, i) => (i === 0 ? { ...panel, series: [...panel.series, ...this.#leastLines()] } : panel)) });
-    this.#at.table.replaceChildren(...(refused ? [] : [table(this.#answer, this.#names()), ...(this.#least.length ? [limitsTable(this.#least)] : [])]));
+    this.#at.table.replaceChildren(...(refused ? [] : [driveTable(this.#answer, this.#names()), ...(this.#least.length ? [table(LEAST, ["in the move", "peak", "lower bound", "RMS", "lower bound"], this.#least.map(({ name, peak, rms }) => [name, ...peak, ...rms]))] : [])]));
     this.#input.show(refused ? this.#answer : overInput);
     const picture = this.#picture(this.#state);
     this.#at.words.textContent = { speed: "dashed: continuous torque", ratio: this.#over?.words ?? "computing …", input: "" }[picture];
@@ -372,18 +374,11 @@ function layout(root) {
   return made;
 }
 
-function table({ rows, active }, names) {
+function driveTable({ rows, active }, names) {
   const head = html("tr", {}, html("th", { scope: "col", text: "at the drive" }), ...names.slice(0, MOST).map((name, i) => html("th", { scope: "col", class: "number", title: name }, html("span", { class: `swatch law-${i}`, text: "ABCD"[i] }))));
   const body = rows.map(({ name, unit, values, over }) => html(
     "tr", {}, html("th", { scope: "row", text: headed(name, unit), title: name }),
     ...values.map((value) => (value === null ? null : number(value, unit))).map((text, i) => html("td", { class: `number${over[i] ? " over" : ""}${i === active ? " active" : ""}`, title: over[i] ? "the motor is too weak" : null, text: text === null ? "—" : over[i] ? `${text} !` : text })),
   ));
   return html("table", { "aria-label": "What each law asks of the drive" }, html("thead", {}, head), html("tbody", {}, ...body));
-}
-
-/** What no law beats in each move, beside what the law that is shown takes. */
-function limitsTable(moves) {
-  const head = html("tr", {}, ...["in the move", "peak", "lower bound", "RMS", "lower bound"].map((text, i) => html("th", { scope: "col", class: i ? "number" : null, text })));
-  const rows = moves.map(({ name, peak, rms }) => html("tr", {}, html("th", { scope: "row", text: name }), ...[...peak, ...rms].map((value) => html("td", { class: "number", text: value === null ? "—" : number(value) }))));
-  return html("table", { id: "machine-least", "aria-label": "What no law that never turns back can beat in each move" }, html("thead", {}, head), html("tbody", {}, ...rows));
 }
