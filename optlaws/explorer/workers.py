@@ -21,7 +21,7 @@ import msgspec
 from optlaws.explorer.answering import FAULT, OK, answer_from, message
 
 #: seconds of the processor after which a question is a long one, that it has, and that it can be given
-SLICE, USUAL, MOST = 0.25, 4.0, 300.0
+SLICE, USUAL, MOST = 0.15, 4.0, 300.0
 _SOON = 0.02  # between two looks at what a question has had
 _WAITED = 4.0  # a busy machine may take so many times as long in all
 _LONG = max(1, min(3, (os.cpu_count() or 2) - 1))
