@@ -145,24 +145,6 @@ def values_of(request: CycleRequest) -> ReportTable:
     return ReportTable.of_columns(columns)
 
 
-def values_of(request: CycleRequest) -> ReportTable:
-    """The cam degree by degree, with its forces where the motion has a drive."""
-    result = result_of(request)
-    table = result.report.coordinates(_STEPS + 1, result.spec.cutter_radius)
-    if result.spec.motion.drive is None:
-        return table
-    forces = result.forces or result.forces_of(Surfaces())
-    angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
-    curves = (forces.contact_force, forces.shaft_torque, forces.contact_pressure)
-    columns = dict(zip(table.headings, zip(*table.rows, strict=True), strict=True))
-    for (name, _, unit, factor), curve in zip(named_forces(forces), curves, strict=False):
-        values = factor * np.asarray(curve(angles))
-        columns[f"{name}, {unit}"] = tuple(
-            np.where(np.abs(values) > FORCE_ROUNDING * np.abs(values).max(), values, 0.0)
-        )
-    return ReportTable.of_columns(columns)
-
-
 def example() -> dict[str, Any]:
     """The cam that the page shows where none was given."""
     return {
