@@ -132,15 +132,15 @@ class LawSearch:
         from optlaws.synthesis.method import starts
 
         limit = limit_beside(self.problem)
-        return None if limit is None else self._try(None, starts.in_phase_plane(self.model, limit), near=True)
+        return None if limit is None else self._try(None, starts.in_phase_plane(self.model, limit))
 
     def _near_limit(self, law: Candidate) -> bool:
         """Whether the limit of a drive leaves a law little slack."""
         limit = limit_beside(self.problem)
         return limit is not None and law.objective <= limit.value * (1.0 + _NEAR_LIMIT)
 
-    def _try(self, warm: ActiveSet | None, point: Array | None, *, near: bool = False) -> Candidate | None:
-        outcome, candidate = attempt(self.model, warm, point, near=near, method=self.method)
+    def _try(self, warm: ActiveSet | None, point: Array | None) -> Candidate | None:
+        outcome, candidate = attempt(self.model, warm, point, method=self.method)
         self.outcomes.append(outcome)
         if candidate is not None:
             self.candidates = sorted([*self.candidates, candidate], key=lambda law: law.objective)
@@ -264,7 +264,7 @@ def limit_beside(problem: Problem) -> DriveLimit | None:
 
 
 def best_available(search: LawSearch) -> Solution | None:
-    """The best law of all strategies, with its proof; None where none exists or the objective is unbounded."""
+    """The best law of a problem, with its proof; None where none exists or the objective is unbounded."""
     solution, problem = _of_any_way(search), search.problem
     # a law of which nothing is proven may be one of many that are less and less
     unproven = solution is not None and problem.convex and solution.lower_bound == -inf
@@ -282,7 +282,7 @@ def _of_any_way(search: LawSearch) -> Solution | None:
         return solution
     if solution is None or (problem.convex and search.outcomes[0].optimum is None):
         unfolded = from_symmetric(search) if problem.mirrored else None
-        around = unfolded or (solved_without_interior(search) or _from_vertices(search) if problem.convex else None)
+        around = unfolded or (solved_without_interior(search) if problem.convex else None)
         known = [answer for answer in (solution, around) if answer is not None]
         return min(known, key=lambda answer: abs(answer.gap), default=None)
     if problem.convex and _beyond_proof(solution):
@@ -300,16 +300,16 @@ def _of_any_way(search: LawSearch) -> Solution | None:
 
 
 def _from_vertices(search: LawSearch) -> Solution | None:
-    """The best law of a linear program by its vertices, where interior points led to no law."""
-    if search.model.program.curved or not (search.outcomes[0].tried or search.outcomes[0].optimum):
+    """The best law of a linear program by its vertices."""
+    if search.model.program.curved:
         return None
-    optimum = solve(search.model.program, method="vertices").optimum
+    optimum = solve(search.model.program, vertices=True).optimum
     return None if optimum is None else LawSearch(search.model, warm=optimum, began=search.began).answer()
 
 
 def continued_by_contacts(search: LawSearch) -> Solution | None:
     """The best law by a neighbour's contacts alone; None where they lead to none, or lower bounds ask for more."""
-    outcome, best = attempt(search.model, search.warm, None, near=True)
+    outcome, best = attempt(search.model, search.warm, None, rounds=0)
     if outcome.optimum is None or best is None or shortfalls(search.problem, best.law):
         return None
     search.outcomes.append(outcome)
@@ -381,7 +381,7 @@ def _agree(first: Candidate | None, last: Candidate | None) -> bool:
 
 
 def attempt(
-    model: Model, warm: ActiveSet | None, point: Array | None, *, near: bool = False, method: Method = "auto"
+    model: Model, warm: ActiveSet | None, point: Array | None, *, rounds: int = ROUNDS, method: Method = "auto"
 ) -> tuple[Outcome, Candidate | None]:
     """The local optimum reached from a neighbour's optimum or a start."""
     claim, laws = model.program.objective * model.unit, _Laws(model)
@@ -396,7 +396,7 @@ def attempt(
 
     if method == IPOPT and warm is not None:
         point, warm = warm.x, None
-    outcome = solve(model.program, warm, start=point, holds=holds, rounds=0 if near else ROUNDS, method=method)
+    outcome = solve(model.program, warm, start=point, holds=holds, rounds=rounds, method=method)
     led = outcome.tried if outcome.optimum is None else (outcome.optimum,)
     candidates = (laws.candidate(state.at(on_equations(model.program, state.x))) for state in led)
     return outcome, min((law for law in candidates if law is not None), key=lambda law: law.objective, default=None)

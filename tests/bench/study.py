@@ -93,7 +93,7 @@ def watched(points: int, degree: int, workers: int) -> Stopwatch:
 
 
 PARTS = {
-    "programs": ("optlaws.synthesis.method.strategies.interior_points.answer_on_points",),
+    "programs": ("optlaws.synthesis.method.exchange.answer_on_points",),
     "Newton": (
         "optlaws.synthesis.method.contacts.newton",
         "optlaws.synthesis.method.identified.newton",

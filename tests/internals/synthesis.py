@@ -47,8 +47,6 @@ from optlaws.synthesis.method.discretised.linear import sharpened, vertex_on_poi
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.exchange import Outcome, solve
 from optlaws.synthesis.method.stored_structures import key_of, stored_guess, stored_structures
-from optlaws.synthesis.method.strategies import interior_points, vertices
-from optlaws.synthesis.method.strategies.strategy import Strategy, cutting_plane_loop
 from optlaws.synthesis.method.units import units_of
 from optlaws.synthesis.pareto import HEADINGS, undominated, value_of
 from optlaws.synthesis.problem.constants import (

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, Problem, Solution, Status, smoothstep, synthesize
-from tests.internals.synthesis import Answer, LinearFamily, Points, Program, interior_points, ipopt
+from tests.internals.synthesis import Answer, LinearFamily, Points, Program, exchange, ipopt
 from tests.synthesis.independent import acceleration_of, check_solution, extremes, velocity_of, z_of
 
 SHAPES = [
@@ -83,7 +83,7 @@ def test_stopping_at_an_acceptable_level_is_no_success(monkeypatch: pytest.Monke
 def test_an_answer_of_a_solver_is_only_a_start(monkeypatch: pytest.MonkeyPatch, noise: float) -> None:
     problem = Problem(B=1.859, order=4, basis=Chebyshev(9), symmetric=False)
     true = synthesize(problem)
-    honest, answers = interior_points.answer_on_points, []
+    honest, answers = exchange.answer_on_points, []
     numbers = np.random.default_rng(5)
 
     def rough(*args: Any) -> Answer:
@@ -91,7 +91,7 @@ def test_an_answer_of_a_solver_is_only_a_start(monkeypatch: pytest.MonkeyPatch, 
         x = answers[-1].x
         return replace(answers[-1], x=x * (1.0 + noise * numbers.normal(size=len(x))))
 
-    monkeypatch.setattr(interior_points, "answer_on_points", rough)
+    monkeypatch.setattr(exchange, "answer_on_points", rough)
     solution = synthesize(problem)
     assert answers
     check_solution(solution)

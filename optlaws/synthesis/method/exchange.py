@@ -1,53 +1,64 @@
-"""The solution of a program: in units, without redundant equations, by several strategies in order.
+"""The solution of a program: the exchange of points, in units, without redundant equations.
 
-A neighbour's optimum or a guess leads to the exact contacts by Newton's method; else IPOPT on few points does, and what
-is linear or conic may need vertices. All are rounds of answers, and what one violates is imposed in the next round.
+A program on few points is solved, by Clarabel if its rows are linear or cones, else by steps of quadratic programs, or
+by IPOPT. The contacts that the answer shows lead to the optimum by Newton's method; where they do not, the extrema of
+the answer join the points. An optimum may be so flat that no exact contacts show: then the answer itself is one, once
+it exceeds nothing between the points.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
+from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.family import LinearFamily, Points, Program
+from optlaws.synthesis.families.energy import EnergyFamily
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, Program
+from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.method.contacts import polished
-from optlaws.synthesis.method.discretised.grids import first_points
+from optlaws.synthesis.method.discretised.answer import Answer
+from optlaws.synthesis.method.discretised.conic import INFEASIBLE, of_cones, optimum_on_points
+from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
+from optlaws.synthesis.method.discretised.linear import vertex_on_points
+from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.few_families import binding_few
-from optlaws.synthesis.method.strategies.strategy import cutting_plane_loop
+from optlaws.synthesis.method.identified import as_answered, optimum_near
 from optlaws.synthesis.method.units import units_of
-from optlaws.synthesis.method.vanishing import at_apex, vanishing
+from optlaws.synthesis.method.vanishing import amplitudes, at_apex, nearly_vanished, vanishing
+from optlaws.tolerances import EXCESS, STEP_SETTLED
 
-if TYPE_CHECKING:
-    from optlaws.synthesis.method.strategies.interior_points import ByInteriorPoints
-
-
-#: by how much the room of a start exceeds what its base law needs
-_AMPLE = 1.2
+_STEP_SHOWS_CONTACTS = 1e-4  # of a law: after a quadratic step that is less Newton's method may find the contacts
+_LOST = 1e7  # coordinates beyond this are no law of the field: the solver has lost its way
 
 #: how programs are solved: by what suits their rows, or every one as a nonlinear program of CasADi by IPOPT
 Method: TypeAlias = Literal["auto", "ipopt"]
 METHODS = get_args(Method)
 IPOPT: Method = "ipopt"
-_VERTICES = "vertices"
-#: the same of one program, or at vertices alone
-_Method: TypeAlias = Method | Literal["vertices"]
 
-ROUNDS = 12
-_DIVERGING = ("Diverging_Iterates", "DualInfeasible")
+ROUNDS = 40
+_CURVED_ROUNDS = 14
+#: rounds after the one whose answer exceeded least: what they leave is the solver's own tolerance
+_PATIENCE = 5
+#: by how much the room of a start exceeds what its base law needs
+_AMPLE = 1.2
+#: places of an integral in a linear program that shows its kinks, and in one more where that does not
+_PLACES = (160, 640)
 _CONTINUED = "continued from a neighbour"
+_DIVERGING = ("DualInfeasible", "Diverging_Iterates")
+_STALLED = "and what answers exceed between the points falls no more"
+_GROUND = "objective at least"
 DEPTH = 1e5  # beyond what laws of the field have
 
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """The result of a program's solution: the optimum (or None), IPOPT's iterations and message, the rounds.
+    """The result of a program's solution: the optimum (or None), the solver's iterations and message, the rounds.
 
     Where there is no optimum `tried` are the answers to the program on points, whose laws may be of use.
     """
@@ -69,6 +80,21 @@ class Outcome:
         return replace(self, optimum=optimum, tried=tuple(change(answer) for answer in self.tried))
 
 
+@dataclass(frozen=True)
+class _Options:
+    """How a program is solved.
+
+    `holds` may decide from x alone, and more quickly than the families do, whether every constraint holds. A linear
+    program may be solved on its points by `vertices` alone.
+    """
+
+    start: Array | None
+    holds: Callable[[Array], bool] | None
+    rounds: int
+    method: Method
+    vertices: bool = False
+
+
 def solve(
     program: Program,
     warm: ActiveSet | None = None,
@@ -76,21 +102,20 @@ def solve(
     start: Array | None = None,
     holds: Callable[[Array], bool] | None = None,
     rounds: int = ROUNDS,
-    method: _Method = "auto",
+    method: Method = "auto",
+    vertices: bool = False,
 ) -> Outcome:
-    """Solve a semi-infinite program; a neighbour's optimum as `warm` is tried before IPOPT, which begins at `start`.
+    """Solve a semi-infinite program; a neighbour's optimum as `warm` is tried first, and the solver begins at `start`.
 
-    `holds` may decide from x alone, and more quickly than the families do, whether every constraint holds. With no
-    `rounds` of interior points quadratic programs lead on from a start, which they do not leave for a worse law.
-    At `vertices` a linear program is solved where contacts lie close together: interior points may end near an optimum
-    without showing it. Of very many families those that bind are found by exchange: a law that none of the others
-    excludes is the optimum of all.
+    `holds` may decide from x alone, and more quickly than the families do, whether every constraint holds. Of very many
+    families those that bind are found by exchange: a law that none of the others excludes is the optimum of all. The
+    answers on points are `vertices` where the multipliers of an interior point hide what a vertex shows.
     """
     few = binding_few(program)
     if few is None:
-        return _in_units(program, warm, start, holds, rounds, method)
+        return _in_units(program, warm, _Options(start, holds, rounds, method, vertices))
     while True:
-        outcome = _in_units(few.program, few.inward(warm), start, None, rounds, method)
+        outcome = _in_units(few.program, few.inward(warm), _Options(start, None, rounds, method, vertices))
         warm = None if outcome.optimum is None else few.outward(outcome.optimum)
         more = None if warm is None else few.joined_beyond(warm.x)
         if more is None:
@@ -98,51 +123,29 @@ def solve(
         few = more
 
 
-def _in_units(
-    program: Program,
-    warm: ActiveSet | None,
-    start: Array | None,
-    holds: Callable[[Array], bool] | None,
-    rounds: int,
-    method: _Method,
-) -> Outcome:
+def _in_units(program: Program, warm: ActiveSet | None, options: _Options) -> Outcome:
     """The solution of a program in units in which its numbers are near 1."""
     units = units_of(program)
     if units is None:
-        return _in_own_units(program, warm, start, holds, rounds, method)
-    outcome = _in_own_units(
-        units.program,
-        None if warm is None else units.inward(warm),
-        None if start is None else start / units.variables,
-        None if holds is None else lambda x: holds(x * units.variables),
-        rounds,
-        method,
+        return _in_own_units(program, warm, options)
+    start, holds = options.start, options.holds
+    within = replace(
+        options,
+        start=None if start is None else start / units.variables,
+        holds=None if holds is None else lambda x: holds(x * units.variables),
     )
-    return outcome.mapped(units.outward)
+    return _in_own_units(units.program, None if warm is None else units.inward(warm), within).mapped(units.outward)
 
 
-def _in_own_units(
-    program: Program,
-    warm: ActiveSet | None,
-    start: Array | None,
-    holds: Callable[[Array], bool] | None,
-    rounds: int,
-    method: _Method,
-) -> Outcome:
+def _in_own_units(program: Program, warm: ActiveSet | None, options: _Options) -> Outcome:
     """The solution of a program whose numbers are near 1."""
     if warm is not None:
-        optimum = polished(program, warm, holds)
+        optimum = polished(program, warm, options.holds)
         if optimum is not None:
             return Outcome(optimum, 0, 0, _CONTINUED)
-
-    def solved(independently: Program) -> Outcome:
-        if method == IPOPT:
-            return _by_ipopt(independently, start, holds)
-        return _solved(independently, start, holds, rounds, method)
-
     chosen = independent(program.equalities)
     if chosen.all():
-        return solved(program)
+        return _solved(program, options)
     if contradiction(program.equalities, program.right) is not None:
         return Outcome(None, 0, 0, "equations that contradict each other")
     fewer = replace(program, equalities=program.equalities[chosen], right=program.right[chosen])
@@ -152,80 +155,173 @@ def _in_own_units(
         multipliers[chosen] = state.equality_multipliers
         return replace(state, equality_multipliers=multipliers)
 
-    return solved(fewer).mapped(of_all)
+    return _solved(fewer, options).mapped(of_all)
 
 
-def _by_ipopt(program: Program, start: Array | None, holds: Callable[[Array], bool] | None) -> Outcome:
-    """The solution by nonlinear programs of CasADi alone."""
-    from optlaws.synthesis.method.strategies.interior_points import ByInteriorPoints
-
-    points = first_points(program)
-    if start is None and program.curved:
-        start = initial_guess(program, points)
-    return _by_interior_points(ByInteriorPoints(program, start, holds, ROUNDS, only_ipopt=True), points)
-
-
-def _solved(
-    program: Program, start: Array | None, holds: Callable[[Array], bool] | None, rounds: int, method: _Method
-) -> Outcome:
+def _solved(program: Program, options: _Options) -> Outcome:
     """The solution of a program whose equations are independent."""
-    # what knows its contacts needs none of them
-    from optlaws.synthesis.method.strategies.interior_points import ByInteriorPoints
-    from optlaws.synthesis.method.strategies.quadratics import ByQuadratics, bends_both_ways
-    from optlaws.synthesis.method.strategies.vertices import ByVertices, many_pieces
-
-    points = first_points(program)
-    if start is None and program.curved:
+    if options.start is None and program.curved and options.method != IPOPT:
         nothing_left = vanishing(program)
         if nothing_left is not None:
             return Outcome(nothing_left, 0, 0, "nothing left")
-        start = initial_guess(program, points)
-    if start is not None and not rounds:
-        stepwise = ByQuadratics(program, start, holds, straight=False)
-        optimum, count = cutting_plane_loop(stepwise, points)
-        return Outcome(optimum, stepwise.iterations, count, "quadratic programs")
-    if method == _VERTICES or many_pieces(program):
-        optimum, count = cutting_plane_loop(ByVertices(program, holds), points)
-        if optimum is not None or method == _VERTICES:
-            return Outcome(optimum, 0, count, "vertices")
-    if bends_both_ways(program):
-        stepwise = ByQuadratics(program, initial_guess(program, points) if start is None else start, holds)
-        optimum, count = cutting_plane_loop(stepwise, points)
-        if optimum is not None:
-            return Outcome(optimum, stepwise.iterations, count, "quadratic programs")
-    return _by_interior_points(ByInteriorPoints(program, start, holds, rounds), points)
+    return _Exchange(program, options).outcome()
 
 
-def _by_interior_points(way: ByInteriorPoints, points: list[Points]) -> Outcome:
-    """The solution on few points, with vanishing amplitudes as equations, and a bounded objective if it diverges."""
-    program, start, rounds = way.program, way.start, way.rounds
-    tried = [] if start is None else [of_variables(program, start)]
-    optimum, _ = cutting_plane_loop(way, points)
-    if way.vanished:
+class _Exchange:
+    """The rounds of a program whose equations are independent."""
 
-        def without_cones(others: Program) -> ActiveSet | None:
-            return _in_own_units(others, None, start, None, rounds, IPOPT if way.only_ipopt else "auto").optimum
+    def __init__(self, program: Program, options: _Options) -> None:
+        self.program, self.options = program, options
+        self.convex = all(map(of_cones, program.families))
+        self.rounds = options.rounds if self.convex and options.method != IPOPT else min(options.rounds, _CURVED_ROUNDS)
+        self.points = first_points(program)
+        self.start = options.start
+        if self.start is None and program.curved:
+            self.start = initial_guess(program, self.points)
+        self.x = np.zeros(program.size) if self.start is None else self.start
+        self.least, self.least_at = np.inf, 0
+        self.vanished: list[int] = []
+        self.tried = [] if options.start is None else [of_variables(program, options.start)]
+        self.iterations, self.count, self.status, self.lost = 0, 0, "", False
 
-        optimum = at_apex(program, way.vanished, without_cones)
-        if optimum is not None:
-            return Outcome(optimum, way.iterations, way.count, "amplitudes that vanish")
-        way = replace(way, apex=False, vanished=(), count=0)
-        optimum, _ = cutting_plane_loop(way, points)
-    tried += way.tried
-    if optimum is None and way.status in _DIVERGING:
-        bounded = grounded(program)
-        way = type(way)(bounded, start, None, rounds, only_ipopt=way.only_ipopt)
-        optimum, _ = cutting_plane_loop(way, first_points(bounded))
-        # the row that held the objective up is none of the program's
-        optimum = None if optimum is None or (optimum.family == len(program.families)).any() else optimum
-    left = () if optimum is not None else tuple(tried)
-    return Outcome(optimum, way.iterations, way.count, way.status, left)
+    def outcome(self) -> Outcome:
+        """The optimum, or the answers of all rounds."""
+        optimum: ActiveSet | None = None
+        onward = True
+        while optimum is None and onward and self.count < self.rounds:
+            self.count += 1
+            optimum, onward = self._round()
+        if optimum is None:
+            optimum = self._grounded() if self.status in _DIVERGING else self._last()
+        left = () if optimum is not None else tuple(self.tried)
+        return Outcome(optimum, self.iterations, self.count, self.status, left)
+
+    def _round(self) -> tuple[ActiveSet | None, bool]:
+        """The optimum, or whether the extrema of the answer have joined the points."""
+        for answer in self._answers():
+            self.iterations, self.status, self.x = self.iterations + answer.iterations, answer.status, answer.x
+            # the optimum of a convex program on points has its proof, however great its numbers
+            far = float(np.abs(answer.x).max()) > _LOST and not (self.convex and answer.success)
+            astray = far or not np.isfinite(answer.x).all()
+            self.lost = astray or not answer.usable
+            if not astray:
+                self.tried.append(as_answered(self.points, answer))
+            optimum = None if self.lost else optimum_near(self.program, self.options.holds, self.points, answer)
+            if optimum is not None or self.lost:
+                break
+        optimum = optimum or self._without_amplitudes()
+        if optimum is not None or self.lost:
+            return optimum, False
+        excess = _excess(self.program, self.x)
+        if excess <= EXCESS and answer.success:
+            # the optimum may be so flat that no exact contacts show: those on the points are then an answer
+            return as_answered(self.points, answer), False
+        if excess < self.least:
+            self.least, self.least_at = excess, self.count
+        if self.count > self.least_at + _PATIENCE:
+            self.status = f"{self.status}, {_STALLED}"
+            return None, False
+        points = with_extrema(self.program, self.points, self.x)
+        known = all(len(new.u) == len(old.u) for new, old in zip(points, self.points, strict=True))
+        self.points = points
+        return None, not known
+
+    def _answers(self) -> Iterator[Answer]:
+        """The answers on the points: where a program is curved each is finer than the one before."""
+        program, points = self.program, self.points
+        if self.options.method == IPOPT:
+            # what its method alone needs
+            from optlaws.synthesis.method.discretised.ipopt import solve_on_points
+
+            fine = self.count > 1 and _only(program, LinearFamily, ConeFamily, EnergyFamily)
+            answer = solve_on_points(program, points, self.start, fine=fine)
+            yield answer if answer.usable or not fine else solve_on_points(program, points, self.start)
+        elif self.options.vertices:
+            vertex = vertex_on_points(program, points)
+            yield Answer.missing(program, points, "no vertex") if vertex is None else vertex
+        elif self.convex:
+            yield answer_on_points(program, points, self.start)
+        else:
+            if self.count == 1:
+                yield from self._straight()
+            for settled in (_STEP_SHOWS_CONTACTS, STEP_SETTLED):
+                yield answer_on_points(program, points, self.x, settled)
+
+    def _straight(self) -> Iterator[Answer]:
+        """Answers of linear programs that show where integrals have their kinks, each with more places."""
+        if not any(isinstance(family, KinkedIntegralFamily) for family in self.program.families):
+            return
+        from optlaws.synthesis.method.discretised.kinks import straight_optimum
+
+        for places in _PLACES:
+            answer = straight_optimum(self.program, self.points, self.x, places)
+            if answer is None:
+                return
+            yield answer
+
+    def _without_amplitudes(self) -> ActiveSet | None:
+        """The optimum in which amplitudes vanish that are next to nothing and hide it."""
+        vanished = amplitudes(self.program) if self.lost else nearly_vanished(self.program, self.x)
+        if not vanished or vanished == self.vanished:
+            return None
+        self.vanished = vanished
+        options = replace(self.options, holds=None)
+        optimum = at_apex(self.program, vanished, lambda others: _in_own_units(others, None, options).optimum)
+        self.status = self.status if optimum is None else "amplitudes that vanish"
+        return optimum
+
+    def _grounded(self) -> ActiveSet | None:
+        """The optimum of the program with a bounded objective: without points enough it may have none."""
+        if any(family.name == _GROUND for family in self.program.families):
+            return None
+        deep = _Exchange(grounded(self.program), replace(self.options, holds=None)).outcome()
+        self.iterations += deep.iterations
+        # the row that holds the objective up is none of the program's
+        held = deep.optimum is None or (deep.optimum.family == len(self.program.families)).any()
+        return None if held else deep.optimum
+
+    def _last(self) -> ActiveSet | None:
+        """The last answer, where it is one to a program without curves that tangents leave far."""
+        flat = _only(self.program, LinearFamily, ConeFamily, KinkedIntegralFamily)
+        return self.tried[-1] if flat and self.tried and not self.lost else None
+
+
+def answer_on_points(
+    program: Program, points: list[Points], start: Array | None, settled: float = STEP_SETTLED
+) -> Answer:
+    """Clarabel's solution of a linear or conic program; of any other, or where it has none, the end of quadratic steps.
+
+    These need no interior, which cones of constants in very different units may leave next to none. A linear program of
+    which Clarabel says nothing is solved by the simplex method.
+    """
+    if all(map(of_cones, program.families)):
+        answer = optimum_on_points(program, points)
+        if answer.success or answer.status == INFEASIBLE:
+            return answer
+        if not program.curved:
+            return vertex_on_points(program, points) or answer
+    return stepwise_on_points(program, points, np.zeros(program.size) if start is None else start, settled)
+
+
+def _only(program: Program, *kinds: type[ConstraintFamily]) -> bool:
+    """Whether every family is of one of these kinds."""
+    return all(isinstance(family, kinds) for family in program.families)
+
+
+def _excess(program: Program, x: Array) -> float:
+    """The greatest residual over all places, in the units of each family's right side."""
+    sizes = (
+        float(family.extremes(x)[2].max()) / max(1.0, abs(family.right_side(x)))
+        for family in program.families
+        if not family.as_equation
+    )
+    return max(sizes, default=0.0)
 
 
 def grounded(program: Program) -> Program:
-    """The program with a lower bound on its objective from the law space, without which IPOPT may diverge."""
+    """The program with a lower bound on its objective from the law space, without which it may have none."""
     row = np.append(-program.objective, 0.0)[None, :]
-    ground = LinearFamily("objective at least", np.zeros(program.size), DEPTH, (1.0,), (1.0, 1.0), series=row)
+    ground = LinearFamily(_GROUND, np.zeros(program.size), DEPTH, (1.0,), (1.0, 1.0), series=row)
     return replace(program, families=(*program.families, ground))
 
 

@@ -17,8 +17,7 @@ from optlaws.synthesis.method.newton import newton
 from optlaws.tolerances import BOUND_FEASIBILITY, SAME_PLACE
 
 _SAME_HEIGHT = 1e-9  # what an extremum's residual may be below that of a point on its hill: rounding of a series
-_WEIGHTLESS = 1e-7  # of the greatest multiplier, of IPOPT: what is less may be its barrier's, not a contact's
-_WEIGHTLESS_AT_VERTEX = 1e-13  # of the greatest multiplier, at a vertex, which has no barrier: what is less is rounding
+_WEIGHTLESS = 1e-7  # of the greatest multiplier: what is less may be a barrier's, not a contact's
 
 #: times the variables: contacts that are nearer to each other may be one that IPOPT's tolerance shows as two
 _OF_SPACING = 1.0
@@ -41,15 +40,8 @@ def optimum_near(
 
 
 def as_answered(points: list[Points], answer: Answer) -> ActiveSet:
-    """IPOPT's own contacts, for optima that are flat somewhere, where no exact active set exists."""
-    return _contacts(
-        points, answer, [_WEIGHTLESS * max(1.0, float(w.max(initial=0.0))) for w in answer.multipliers[:-1]]
-    )
-
-
-def of_vertex(points: list[Points], answer: Answer) -> ActiveSet:
-    """The contacts of a vertex: what has a multiplier, however small."""
-    return _contacts(points, answer, [_WEIGHTLESS_AT_VERTEX * w.max(initial=0.0) for w in answer.multipliers[:-1]])
+    """The answer's own contacts, for optima that are flat somewhere, where no exact active set exists."""
+    return _contacts(points, answer, [answer.weightless * w.max(initial=0.0) for w in answer.multipliers[:-1]])
 
 
 def _contacts(points: list[Points], answer: Answer, least: list[float]) -> ActiveSet:

@@ -41,7 +41,6 @@ _LEAST_STEP = 1e-3  # of a way: a shorter step of a search for a bound is not ta
 _FIRST_STEP = 0.25
 _WORTHY = 0.2
 _FOLLOWED = 4
-_ROUNDS = 2
 _ROOM = 1e3
 _CROWD = 2  # contacts for each variable, of which one determines it
 _MIDDLE = 0.5
@@ -164,7 +163,7 @@ def _at_fixed_places(
             # where no law has the peak IPOPT would look long for one
             if not _straight_rows_agree(at_u):
                 continue
-            state = solve(at_u, start=plain.x if at_u.curved else None, rounds=_ROUNDS).optimum
+            state = solve(at_u, start=plain.x if at_u.curved else None).optimum
             way = None if state is None else _let_go(program, family, state, low)
             if way is not None:
                 ways.append(way)
@@ -196,7 +195,7 @@ def _stayed(
         if worth >= best:
             break
         there = _with(program, row)
-        state = solve(there, rounds=_ROUNDS if there.curved else 1).optimum
+        state = solve(there).optimum
         if state is not None:
             stayed.append((there, state))
             best = min(best, there.objective_at(state.x))
@@ -247,7 +246,6 @@ def _inside(family: ConstraintFamily, u: float) -> bool:
 
 _PLACES = 5
 _HALVINGS = 60
-_PLACED_ROUNDS = 4
 _SMOOTH = {"C": "rms_c", "C_plus": "rms_c", "C_minus": "rms_c", "J": "rms_j", "D": "rms_c", "B": "rms_c"}
 
 
@@ -304,9 +302,7 @@ def _at_places(problem: Problem, other: Model, family: ConstraintFamily, low: fl
     for u in places(problem, family).tolist():
         for s in family.signs:
             row = replace(family, signs=(-s,), bound=-low, domain=(u, u))
-            beyond = solve(
-                replace(other.program, families=(*other.program.families, row)), rounds=_PLACED_ROUNDS
-            ).optimum
+            beyond = solve(_with(other.program, row)).optimum
             if beyond is not None:
                 yield beyond
 

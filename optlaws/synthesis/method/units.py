@@ -10,14 +10,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from optlaws.numbers import Array, power_of_two
+from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, ProductFamily, Program
-
-_SMALL_COST = 3e-2  # an objective that is less is hidden from an interior-point method by its own tolerance
 
 #: smaller laws are solved as they are
 _GREAT = 100.0
@@ -88,26 +85,6 @@ def units_of(program: Program) -> ProgramUnits | None:
         cost / objective,
     )
     return ProgramUnits(scaled, variables, rows, size, objective)
-
-
-def units_near(program: Program, x: Array) -> ProgramUnits | None:
-    """Units in which a small objective and small amplitudes near x become 1; None if none is small."""
-    value = program.objective_at(x)
-    if not 0.0 < value < _SMALL_COST:
-        return None
-    variables, rows = np.ones(program.size), np.ones(len(program.families))
-    for i, family in enumerate(program.families):
-        right = family.right_side(x)
-        if isinstance(family, ConeFamily) and family.bound == 0.0 and 0.0 < right < 1.0:
-            rows[i] = power_of_two(right)
-            slacks = np.flatnonzero(family.slack)
-            variables[slacks] = np.minimum(variables[slacks], power_of_two(right / float(family.slack[slacks].max())))
-    families = tuple(
-        family.in_units(variables, unit) for family, unit in zip(program.families, rows.tolist(), strict=True)
-    )
-    cost = program.objective * variables / value
-    scaled = Program(families, program.equalities * variables, program.right, cost)
-    return ProgramUnits(scaled, variables, rows, 1.0, value)
 
 
 def _row_unit(family: ConstraintFamily, size: float) -> float:

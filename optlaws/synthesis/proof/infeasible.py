@@ -16,9 +16,8 @@ from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
 from optlaws.synthesis.method.discretised.linear import vertex_on_points
 from optlaws.synthesis.method.equations import contradiction
-from optlaws.synthesis.method.exchange import DEPTH, Outcome, grounded, solve
+from optlaws.synthesis.method.exchange import DEPTH, Outcome, answer_on_points, grounded, solve
 from optlaws.synthesis.method.identified import as_answered
-from optlaws.synthesis.method.strategies.interior_points import answer_on_points
 from optlaws.synthesis.problem.constants import C, Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window

@@ -19,7 +19,7 @@ from optlaws import (
     at_most,
     synthesize,
 )
-from tests.internals.synthesis import Answer, RootMeanSquare, exchange, interior_points, ipopt
+from tests.internals.synthesis import Answer, RootMeanSquare, exchange, ipopt
 from tests.synthesis.random_options import every_option
 
 #: the rows of the table of "Synthesis of optimal laws of periodic motion"
@@ -65,8 +65,7 @@ def test_ipopt_alone_solves_the_programs_on_points(monkeypatch: pytest.MonkeyPat
         pytest.fail("another solver was called")
 
     monkeypatch.setattr(ipopt, "solve_on_points", counted)
-    for other in ("answer_on_points", "ByVertices"):
-        monkeypatch.setattr(interior_points, other, refused)
+    monkeypatch.setattr(exchange, "answer_on_points", refused)
     for problem in (
         PAPER[0],
         Problem(B=1.9, order=3, minimise="rms_c"),
@@ -78,13 +77,13 @@ def test_ipopt_alone_solves_the_programs_on_points(monkeypatch: pytest.MonkeyPat
 
 
 def test_a_neighbour_is_where_ipopt_begins(monkeypatch: pytest.MonkeyPatch) -> None:
-    begun, honest = [], exchange._by_ipopt
+    begun, honest = [], ipopt.solve_on_points
 
-    def noted(program: Any, start: Any, holds: Any) -> Any:
+    def noted(program: Any, points: Any, start: Any, **options: Any) -> Any:
         begun.append(start)
-        return honest(program, start, holds)
+        return honest(program, points, start, **options)
 
-    monkeypatch.setattr(exchange, "_by_ipopt", noted)
+    monkeypatch.setattr(ipopt, "solve_on_points", noted)
     problem, near = PAPER[1], synthesize(Problem(B=1.65, order=4, basis=Chebyshev(3)))
     found = synthesize(problem, start=near, method="ipopt")
     assert [start.tolist() for start in begun] == [near.active_set.x.tolist()]

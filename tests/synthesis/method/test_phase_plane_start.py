@@ -52,7 +52,7 @@ def test_no_other_start_leads_to_a_better_law(name: str) -> None:
     problem = forward(PROBLEMS[name])
     model, limit = model_of(problem), limit_beside(problem)
     assert limit is not None
-    _, best = attempt(model, None, starts.in_phase_plane(model, limit), near=True)
+    _, best = attempt(model, None, starts.in_phase_plane(model, limit))
     _, other = attempt(model, None, None)
     assert best is not None
     assert other is not None

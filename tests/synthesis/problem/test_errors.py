@@ -41,7 +41,7 @@ from optlaws import (
     via,
 )
 from optlaws.synthesis import basis
-from tests.internals.synthesis import Answer, Points, Program, interior_points, make, search, vertices
+from tests.internals.synthesis import Answer, Points, Program, exchange, make, search
 
 GOOD: dict[str, Any] = {"B": 1.859, "order": 4}
 
@@ -274,15 +274,12 @@ def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) ->
     def failed(program: Program, points: list[Points], *_: object) -> Answer:
         return Answer.missing(program, points, "InsufficientProgress", 7)
 
-    monkeypatch.setattr(interior_points, "answer_on_points", failed)
+    monkeypatch.setattr(exchange, "optimum_on_points", failed)
     monkeypatch.setattr(search, "stored_guess", lambda *_: None)  # which asks no solver
     asked = problem(B=1.7001)
-    # where that fails the simplex method ends a linear program
+    # where Clarabel fails the simplex method solves a linear program
     assert synthesize(asked).status == "optimal"
-    # and where that fails too, Clarabel on the points of vertices
-    monkeypatch.setattr(vertices, "vertex_on_points", lambda *_: None)
-    assert synthesize(asked).status == "optimal"
-    monkeypatch.setattr(vertices, "optimum_on_points", failed)
+    monkeypatch.setattr(exchange, "vertex_on_points", lambda *_: None)
     with pytest.raises(SolverFailure, match="no law was found") as caught:
         synthesize(asked)
     assert caught.value.problem == asked
@@ -294,14 +291,14 @@ def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) ->
 def test_multipliers_that_are_wrong_give_no_false_claim(monkeypatch: pytest.MonkeyPatch, shift: float) -> None:
     asked = problem(B=1.7002)
     true = synthesize(asked).objective
-    honest = interior_points.answer_on_points
+    honest = exchange.answer_on_points
 
     def lying(*args: Any) -> Answer:
         answer = honest(*args)
         wrong = [weights * (1.0 + shift) for weights in answer.multipliers]
         return replace(answer, x=answer.x + shift, multipliers=wrong)
 
-    monkeypatch.setattr(interior_points, "answer_on_points", lying)
+    monkeypatch.setattr(exchange, "answer_on_points", lying)
     monkeypatch.setattr(search, "stored_guess", lambda *_: None)  # which needs no answer
     try:
         solution = synthesize(asked)

@@ -25,6 +25,7 @@ class Answer:
     success: bool
     status: str
     iterations: int
+    weightless: float = 1e-13  #: of the greatest multiplier of a family: what is less is rounding, or a barrier's
 
     @classmethod
     def missing(cls, program: Program, points: list[Points], status: str, iterations: int = 0) -> Answer:

@@ -5,7 +5,7 @@ Its answer is good to some 1e-11 in the objective and in every row, and it uses 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -21,9 +21,7 @@ _CONIC_SOLVER = 1e-12  # what a solver of cones is told to leave of gap and feas
 
 _USABLE = ("Solved", "AlmostSolved")
 INFEASIBLE = "PrimalInfeasible"
-_MAGNIFIED = 2.0**12
-#: what a cone is taken to be at its tip by, magnified
-_NOTHING = 16.0
+_STUCK = ("InsufficientProgress", "NumericalError", "MaxIterations")
 
 
 def conic(program: Program) -> bool:
@@ -62,43 +60,8 @@ class _Block:
         """Multipliers of the constraints, one for each cone."""
         return np.asarray(np.maximum((duals.reshape(self.shares.shape) * self.shares).sum(axis=1), 0.0))
 
-    def near(self, x: Array) -> _Block:
-        """The program for the difference from x, magnified.
 
-        A cone's boundary is nearly straight where s is: of s the part along the ray through it and the one across that
-        ray are p and q with p q at least the square of the rest, and p is magnified, q is not, the rest by the root.
-        """
-        if self.linear:
-            return replace(self, right=_MAGNIFIED * (self.right - self.rows @ x))
-        count, size = self.shares.shape
-        rows = self.rows.reshape(count, size, -1)
-        turned = np.stack([_turned(s) for s in (self.right - self.rows @ x).reshape(count, size)])
-        return replace(
-            self,
-            rows=(turned @ rows / _MAGNIFIED).reshape(-1, rows.shape[2]),
-            right=np.einsum("cij,cj->ci", turned, (self.right - self.rows @ x).reshape(count, size)).ravel(),
-            shares=np.einsum("cij,cj->ci", turned, self.shares) / _MAGNIFIED,
-        )
-
-
-def _turned(s: Array) -> Array:
-    """The matrix that magnifies a cone about s; of what is nearly nothing all of it."""
-    size, length = len(s), float(np.linalg.norm(s[1:]))
-    if size == 1 or length * _MAGNIFIED < _NOTHING:
-        return np.asarray(_MAGNIFIED * np.eye(size))
-    ray = np.append(1.0, s[1:] / length)
-    across = np.append(1.0, -ray[1:])
-    # a reflection that takes the ray's direction to an axis
-    normal = ray[1:].copy()
-    normal[0] += np.copysign(1.0, normal[0])
-    beside = np.eye(size - 1) - 2.0 * np.outer(normal, normal) / float(normal @ normal)
-    matrix = np.zeros((size, size))
-    matrix[0], matrix[1] = (_MAGNIFIED * across + ray) / 2.0, (_MAGNIFIED * across - ray) / 2.0
-    matrix[2:, 1:] = _MAGNIFIED**0.5 * beside[1:]
-    return matrix
-
-
-def optimum_on_points(program: Program, points: list[Points], near: Array | None = None) -> Answer:
+def optimum_on_points(program: Program, points: list[Points]) -> Answer:
     """The optimum of the program with its families enforced at the points only.
 
     Parameters
@@ -107,46 +70,49 @@ def optimum_on_points(program: Program, points: list[Points], near: Array | None
         A program whose families are all `of_cones`.
     points
         Where its families are imposed.
-    near
-        Variables near the optimum, of which then the difference is sought, magnified.
     """
     import clarabel
 
     blocks = [_block(family, grid) for family, grid in zip(program.families, points, strict=True)]
     scale = 1.0 / _length(program.equalities)
     equations, given = program.equalities * scale[:, None], program.right * scale
-    if near is not None:
-        blocks = [block.near(near) for block in blocks]
-        given = _MAGNIFIED * (given - equations @ near)
     matrix = np.vstack([equations, *(block.rows for block in blocks)])
     right = np.concatenate([given, *(block.right for block in blocks)])
     cones = [clarabel.ZeroConeT(len(scale)), *(cone for block in blocks for cone in block.cones)]
     straight = np.zeros((program.size, program.size))
     # its size is none of the optimum's
     size = float(np.linalg.norm(program.objective)) or 1.0
-    optimum = conic_optimum(straight, program.objective / size, matrix, right, cones, tolerance=_CONIC_SOLVER)
+    cost = program.objective / size
+    optimum = conic_optimum(straight, cost, matrix, right, cones, tolerance=_CONIC_SOLVER, alike=True)
     if not usable(optimum):
         return Answer.missing(program, points, str(optimum.status), optimum.iterations)
     ends = np.cumsum([len(scale), *(len(block.right) for block in blocks)])[:-1]
     pulls, *duals = np.split(size * np.asarray(optimum.z), ends)
     weights = [block.weights(dual) for block, dual in zip(blocks, duals, strict=True)]
-    x = np.asarray(optimum.x) if near is None else near + np.asarray(optimum.x) / _MAGNIFIED
-    x, status = _on_equations(program, x), str(optimum.status)
+    x, status = _on_equations(program, np.asarray(optimum.x)), str(optimum.status)
     return Answer(x, [*weights, pulls * scale], success=True, status=status, iterations=optimum.iterations)
 
 
 def conic_optimum(
-    curvature: Array, cost: Array, rows: Array, right: Array, cones: list[Any], *, tolerance: float
+    curvature: Array, cost: Array, rows: Array, right: Array, cones: list[Any], *, tolerance: float, alike: bool
 ) -> Any:
-    """The least x . curvature . x / 2 + cost . x with right - rows . x in cones, by Clarabel."""
+    """The least x . curvature . x / 2 + cost . x with right - rows . x in cones, by Clarabel.
+
+    Rows that are `alike` are not scaled again: those of short pieces would end far from the accuracy that is set.
+    """
     import clarabel
     from scipy import sparse
 
     settings = clarabel.DefaultSettings()
     settings.verbose = False
     settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
+    settings.tol_infeas_abs = settings.tol_infeas_rel = tolerance
     sparse_curvature, sparse_rows = sparse.csc_matrix(np.triu(curvature)), sparse.csc_matrix(rows)
-    return clarabel.DefaultSolver(sparse_curvature, cost, sparse_rows, right, cones, settings).solve()
+    for settings.equilibrate_enable in (False, True) if alike else (True,):
+        optimum = clarabel.DefaultSolver(sparse_curvature, cost, sparse_rows, right, cones, settings).solve()
+        if str(optimum.status) not in _STUCK:
+            break
+    return optimum
 
 
 def usable(optimum: Any) -> bool:

@@ -33,7 +33,6 @@ _MORE = (1.0, 1e-2, 1e-4, 1e-6, 1e-8)
 # if a method ends without an answer, the next is tried: a presolve or a tolerance may be the obstacle
 _WAYS = (("highs-ds", True, 1e-10), ("highs-ds", False, 1e-10), ("highs-ds", False, 1e-9), ("highs-ipm", True, 1e-10))
 _OPTIMAL, _INFEASIBLE = 0, 2
-_MAGNIFIED = 2.0**14
 
 
 def sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveSet | None:
@@ -153,7 +152,7 @@ class LinearTable:
         return np.asarray(self.objective + rows.T @ multipliers + self.equations.T @ equations)
 
 
-def vertex_on_points(program: Program, points: list[Points], near: Array | None = None) -> Answer | None:
+def vertex_on_points(program: Program, points: list[Points]) -> Answer | None:
     """An optimal vertex of the program with its families enforced at the points only; None if the solver fails.
 
     Parameters
@@ -162,24 +161,17 @@ def vertex_on_points(program: Program, points: list[Points], near: Array | None 
         A program whose families are all linear.
     points
         Where they are imposed.
-    near
-        Variables near the vertex, of which then the difference is sought, magnified: what the solver tolerates in a
-        row becomes so much smaller.
     """
     from scipy.optimize import linprog
 
     solve: Any = linprog
     table = LinearTable(program, points)
-    right, equation_right = table.right, table.equation_right
-    if near is not None:
-        right = _MAGNIFIED * -table.residuals(near)
-        equation_right = _MAGNIFIED * (equation_right - table.equations @ near)
-    equations = {"A_eq": table.equations, "b_eq": equation_right} if len(program.right) else {}
+    equations = {"A_eq": table.equations, "b_eq": table.equation_right} if len(program.right) else {}
     for method, presolve, tolerance in _WAYS:
         optimum = solve(
             program.objective,
             A_ub=table.rows,
-            b_ub=right,
+            b_ub=table.right,
             bounds=(None, None),
             method=method,
             options={
@@ -190,8 +182,7 @@ def vertex_on_points(program: Program, points: list[Points], near: Array | None 
             **equations,
         )
         if optimum.status == _OPTIMAL:
-            x = np.asarray(optimum.x) if near is None else near + np.asarray(optimum.x) / _MAGNIFIED
-            return _answer(table, points, x, optimum)
+            return _answer(table, points, optimum)
         if optimum.status == _INFEASIBLE:
             return None
     return None
@@ -202,8 +193,10 @@ def by_family(values: Array, points: list[Points]) -> list[Array]:
     return np.split(values, np.cumsum([len(grid.u) for grid in points])[:-1])
 
 
-def _answer(table: LinearTable, points: list[Points], x: Array, optimum: Any) -> Answer:
+def _answer(table: LinearTable, points: list[Points], optimum: Any) -> Answer:
     weights = np.maximum(-optimum.ineqlin.marginals, 0.0) / table.length
     equations = -np.asarray(optimum.eqlin.marginals, dtype=np.float64) / table.equation_length
     status = str(optimum.message)
-    return Answer(x, [*by_family(weights, points), equations], success=True, status=status, iterations=0)
+    return Answer(
+        np.asarray(optimum.x), [*by_family(weights, points), equations], success=True, status=status, iterations=0
+    )

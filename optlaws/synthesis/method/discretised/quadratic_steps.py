@@ -238,7 +238,7 @@ class _Descent:
         curvature[:size, :size] = bend + damping * np.eye(size)
         cones = [clarabel.ZeroConeT(len(program.right)), clarabel.NonnegativeConeT(int(finite.sum()) + 1)]
         cost = np.append(program.objective, self.price)
-        optimum = conic_optimum(curvature, cost, matrix, right, cones, tolerance=_QUADRATIC_SOLVER)
+        optimum = conic_optimum(curvature, cost, matrix, right, cones, tolerance=_QUADRATIC_SOLVER, alike=False)
         if not usable(optimum):
             return None
         duals = np.asarray(optimum.z)

@@ -1,1 +1,0 @@
-"""Strategies of the cutting-plane loop: vertices, interior points, quadratic programs."""
