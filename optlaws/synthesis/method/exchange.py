@@ -22,7 +22,7 @@ from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Po
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.method.contacts import polished
 from optlaws.synthesis.method.discretised.answer import Answer
-from optlaws.synthesis.method.discretised.conic import INFEASIBLE, of_cones, optimum_on_points
+from optlaws.synthesis.method.discretised.conic import INFEASIBLE, SOLVED, of_cones, optimum_on_points
 from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
 from optlaws.synthesis.method.discretised.linear import vertex_on_points
 from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
@@ -31,7 +31,7 @@ from optlaws.synthesis.method.few_families import binding_few
 from optlaws.synthesis.method.identified import as_answered, optimum_near
 from optlaws.synthesis.method.units import units_of
 from optlaws.synthesis.method.vanishing import amplitudes, at_apex, nearly_vanished, vanishing
-from optlaws.tolerances import EXCESS, STEP_SETTLED
+from optlaws.tolerances import BOUND_FEASIBILITY, EXCESS, STEP_SETTLED
 
 _STEP_SHOWS_CONTACTS = 1e-4  # of a law: after a quadratic step that is less Newton's method may find the contacts
 _LOST = 1e7  # coordinates beyond this are no law of the field: the solver has lost its way
@@ -206,7 +206,7 @@ class _Exchange:
             self.lost = astray or not answer.usable
             if not astray:
                 self.tried.append(as_answered(self.points, answer))
-            optimum = None if self.lost else optimum_near(self.program, self.options.holds, self.points, answer)
+            optimum = None if self.lost else self._near(answer)
             if optimum is not None or self.lost:
                 break
         optimum = optimum or self._without_amplitudes()
@@ -225,6 +225,11 @@ class _Exchange:
         known = all(len(new.u) == len(old.u) for new, old in zip(points, self.points, strict=True))
         self.points = points
         return None, not known
+
+    def _near(self, answer: Answer) -> ActiveSet | None:
+        """The optimum that the contacts of an answer lead to, where it exceeds nothing, not even beside a contact."""
+        optimum = optimum_near(self.program, self.options.holds, self.points, answer)
+        return None if optimum is None or _excess(self.program, optimum.x) > BOUND_FEASIBILITY else optimum
 
     def _answers(self) -> Iterator[Answer]:
         """The answers on the points: where a program is curved each is finer than the one before."""
@@ -291,15 +296,17 @@ def answer_on_points(
 ) -> Answer:
     """Clarabel's solution of a linear or conic program; of any other, or where it has none, the end of quadratic steps.
 
-    These need no interior, which cones of constants in very different units may leave next to none. A linear program of
-    which Clarabel says nothing is solved by the simplex method.
+    Rows that meet in next to no interior leave Clarabel short of its accuracy. The simplex method needs none, and ends
+    linear programs there; quadratic steps end those with cones of constants in very different units.
     """
     if all(map(of_cones, program.families)):
         answer = optimum_on_points(program, points)
-        if answer.success or answer.status == INFEASIBLE:
+        if answer.status in (SOLVED, INFEASIBLE):
             return answer
         if not program.curved:
             return vertex_on_points(program, points) or answer
+        if answer.success:
+            return answer
     return stepwise_on_points(program, points, np.zeros(program.size) if start is None else start, settled)
 
 

@@ -14,7 +14,7 @@ from optlaws.synthesis.method.contacts import completed, polished
 from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.synthesis.method.discretised.linear import sharpened
 from optlaws.synthesis.method.newton import newton
-from optlaws.tolerances import BOUND_FEASIBILITY, SAME_PLACE
+from optlaws.tolerances import EXCESS, SAME_PLACE
 
 _SAME_HEIGHT = 1e-9  # what an extremum's residual may be below that of a point on its hill: rounding of a series
 _WEIGHTLESS = 1e-7  # of the greatest multiplier: what is less may be a barrier's, not a contact's
@@ -36,7 +36,7 @@ def optimum_near(
     if sharp is None or completed(program, sharp) is not sharp:
         return optimum
     # beside a contact the law may stick out where the optimum is flat
-    return sharp if program.violation(sharp.x) <= BOUND_FEASIBILITY else optimum
+    return sharp if program.violation(sharp.x) <= EXCESS else optimum
 
 
 def as_answered(points: list[Points], answer: Answer) -> ActiveSet:

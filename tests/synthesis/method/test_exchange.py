@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, Pieces, Problem, between, synthesize
+from optlaws import BoundaryConditions, BSplines, Chebyshev, Pieces, Problem, Window, at_most, between, synthesize
 from tests.internals.synthesis import ActiveSet, Answer, Program, exchange, model_of
 
 
@@ -17,6 +17,31 @@ def test_a_flat_optimum_of_pieces_is_the_answer_on_its_points() -> None:
     solution = synthesize(problem)
     assert solution.status == "optimal"
     assert solution.objective == pytest.approx(2.75220731, rel=1e-8)
+
+
+def test_two_sides_of_a_bound_that_meet_at_a_place_are_ended_by_the_simplex_method() -> None:
+    """C_plus at its bound at one place, and nowhere above it, leaves no interior for Clarabel: the law touches there.
+
+    Newton's method stands still beside the place, where the law exceeds the bound by more than it may.
+    """
+    problem = Problem(
+        B=1.3079101944714775,
+        order=4,
+        basis=BSplines(breaks=(0.0, 0.33, 0.345, 0.402, 0.5, 0.598, 0.655, 0.67, 1.0), degree=3, continuity=2),
+        minimise="max(0.0005254237288135593*J, 0.0004915254237288136*J)",
+        symmetric=False,
+        J=at_most(1355.2827834879922),
+        bounds={"C_plus": between(9.973950881109433, 9.973950881109433)},
+        boundary=BoundaryConditions(start=(0.25, -0.135, -2.709, -4.78), end=(0.65, -0.213, -0.197, 1.409)),
+        windows=(
+            Window("c", low=-9.069070061211054, high=8.864715484898024, start=0.405, stop=0.695),
+            Window("b", high=1.3360671887817792, start=0.466, stop=0.64),
+            Window("j", high=333.4271517914283, start=0.428, stop=0.62),
+        ),
+    )
+    solution = synthesize(problem)
+    assert solution.law.peak(2).value == pytest.approx(9.973950881109433, rel=1e-9)
+    assert solution.objective <= 0.04545822
 
 
 def test_rounds_end_where_what_answers_exceed_falls_no_more(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -19,7 +19,8 @@ from optlaws.tolerances import EMPTY_ROW
 
 _CONIC_SOLVER = 1e-12  # what a solver of cones is told to leave of gap and feasibility
 
-_USABLE = ("Solved", "AlmostSolved")
+SOLVED = "Solved"
+_USABLE = (SOLVED, "AlmostSolved")
 INFEASIBLE = "PrimalInfeasible"
 _STUCK = ("InsufficientProgress", "NumericalError", "MaxIterations")
 
