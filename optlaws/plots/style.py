@@ -159,17 +159,17 @@ def rendered(drawing: Figure, kind: str) -> bytes:
         # Figure.savefig draws twice, first for its layout, which drawing once does too
         with plot_style():
             drawing.set_dpi(STYLE["savefig.dpi"])
-            own: Any  # the methods have no types
+            writer: Any  # the methods have no types
             if kind == "svg":
                 from matplotlib.backends.backend_svg import FigureCanvasSVG
 
-                own = FigureCanvasSVG(drawing)
-                own.print_svg(stream, metadata=metadata)
+                writer = FigureCanvasSVG(drawing)
+                writer.print_svg(stream, metadata=metadata)
             else:
                 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-                own = FigureCanvasAgg(drawing)
-                own.print_png(stream, metadata=metadata)
+                writer = FigureCanvasAgg(drawing)
+                writer.print_png(stream, metadata=metadata)
     finally:
         drawing.set_canvas(canvas)
         drawing.set_dpi(dpi)

@@ -236,8 +236,8 @@ class _Solved(NamedTuple):
     def coefficients(self) -> Array:
         """Those of all B-splines."""
         free = self.turned.shape[1]
-        found = np.linalg.solve(self.triangle[:free, :free], self.triangle[:free, free])
-        return np.asarray(self.known + self.turned @ found)
+        solution = np.linalg.solve(self.triangle[:free, :free], self.triangle[:free, free])
+        return np.asarray(self.known + self.turned @ solution)
 
 
 class _Fitter:

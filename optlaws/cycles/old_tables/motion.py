@@ -302,8 +302,8 @@ def _moves_between(
         key = float(samples.places[0]), before, after
         if key not in known:
             region, counts = _Region(samples, before, after, seam, advance, split=True), [0.0, 0.0]
-            found = list(region.moves(counts)) if region.moves_at_all else []
-            known[key] = found, counts[0], counts[1], region.far
+            in_region = list(region.moves(counts)) if region.moves_at_all else []
+            known[key] = in_region, counts[0], counts[1], region.far
         of_region, more_squares, more_free, more_far = known[key]
         moves, squares, free, far = moves + of_region, squares + more_squares, free + more_free, far + more_far
     return moves, squares, free, far

@@ -282,8 +282,8 @@ class _Exchange:
         deep = _Exchange(grounded(self.program), replace(self.options, holds=None)).outcome()
         self.iterations += deep.iterations
         # the row that holds the objective up is none of the program's
-        held = deep.optimum is None or (deep.optimum.family == len(self.program.families)).any()
-        return None if held else deep.optimum
+        by_ground = deep.optimum is None or (deep.optimum.family == len(self.program.families)).any()
+        return None if by_ground else deep.optimum
 
     def _last(self) -> ActiveSet | None:
         """The last answer, where it is one to a program without curves that tangents leave far."""

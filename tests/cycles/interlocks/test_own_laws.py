@@ -225,7 +225,8 @@ def rule(**given: Any) -> Axes:
 
 
 def test_what_no_laws_can_do_is_named() -> None:
-    with pytest.raises(InfeasibleProblem, match=r"no instants of these laws keep all interlocks: wait; early: at least one move"):
+    refused = r"no instants of these laws keep all interlocks: wait; early: at least one move"
+    with pytest.raises(InfeasibleProblem, match=refused):
         rule().gentlest("x")
     rated = {"drive": {"mass": "2 kg"}, "limits": {"acceleration": "9 m/s^2", "rms force": "9 N"}}
     with pytest.raises(InputError, match=r"axis x: a limit of its whole cycle cannot be kept .* leave out"):
