@@ -49,7 +49,7 @@ def damaged(data: dict[str, Any], optional: AbstractSet[str]) -> Iterator[Any]:
         for step in path[:-1]:
             inner = inner[step]
         value = inner[path[-1]]
-        inner[path[-1]] = {"nothing": []} if isinstance(value, str | int | float) else 17
+        inner[path[-1]] = {"nothing": []} if isinstance(value, str | int | float) else True
         yield copy
 
 

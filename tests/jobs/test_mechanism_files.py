@@ -378,7 +378,7 @@ def test_pages_and_tables_say_what_the_motor_needs(tmp_path: Path, capsys: pytes
     page = (tmp_path / "out" / "cycle.md").read_text("utf-8")
     assert "| peak torque, used | 122.860106 | % | too weak |" in " ".join(page.split())
     picture = (tmp_path / "out" / "table_motor.svg").read_text("utf-8")
-    assert "<!-- continuous torque -->" in picture
+    assert "<!-- continuous torque, 74.5 % used -->" in picture
     assert "<!-- speed of the motor, rpm -->" in picture
 
 

@@ -333,7 +333,8 @@ class _Fitter:
         best = self.solved(at, joints, pieces) if sides else None
         while best is not None and width > least:
             step, gain = self._step(best, sides)
-            if gain * len(self.x) <= _WORTH * max(best.squares, len(self.x)):
+            least_gain = _WORTH * max(best.squares / len(self.x), 1.0)
+            if gain <= least_gain:
                 break
             step *= width / max(float(np.abs(step).max()), width)
             tried = np.array(at)
@@ -341,7 +342,10 @@ class _Fitter:
             apart = float(np.abs(tried - at).max())
             other = self.solved((float(tried[0]), float(tried[1])), joints, pieces) if apart else None
             if other is not None and other.squares < best.squares:
+                gain = best.squares - other.squares
                 at, best, width = (float(tried[0]), float(tried[1])), other, 2.0 * width
+                if gain <= least_gain:
+                    break
             else:
                 width = 0.25 * apart
         return at
