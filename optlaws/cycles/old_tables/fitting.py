@@ -9,7 +9,6 @@ from math import log
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import BSpline, make_interp_spline
 
 from optlaws.numbers import Array
@@ -36,16 +35,8 @@ _EVIDENT = 12.0
 _CANDIDATES = 160
 #: with as few pieces no joint is looked for: the motion is smooth
 _SIMPLE = 4
-#: places at which each end of a rest is looked for before it is moved
-_LOOKS = 9
-#: of a length by which an end is moved, to see how what is known of it changes in proportion
-_MOVED = 0.01
-#: rows of one polynomial, for each column, from which on they are condensed
-_LONG = 6
-#: of a step: ends of rests are moved by no less
-_FINE = 1e-3
-#: of the variance about a fit: ends are moved no more for less of a fall of the sum of squares
-_WORTH = 1.0
+#: of a step: how near the ends of rests are looked for, in the end and in searches
+_FINE, _ROUGH = 0.02, 0.2
 #: with more pieces the ends of rests are no longer looked for: the pieces begin to take part in the rests
 _ENDS_BY = 6
 
@@ -167,34 +158,6 @@ def _basis(knots: Array, places: Array, nu: int = 0) -> Array:
     return np.asarray(rows @ turned, dtype=np.float64) if nu else rows
 
 
-def _nonzero(knots: Array, places: Array) -> tuple[NDArray[np.intp], Array]:
-    """The B-splines that are not 0 at places within knots: the column of the first one, and a row of their values."""
-    matrix = BSpline.design_matrix(places, knots, DEGREE)
-    return matrix.indices[:: DEGREE + 1].astype(np.intp), matrix.data.reshape(-1, DEGREE + 1)
-
-
-def _times(columns: NDArray[np.intp], rows: Array, coefficients: Array) -> Array:
-    """Splines at the places of rows of B-splines."""
-    return np.asarray((rows * coefficients[columns[:, None] + np.arange(DEGREE + 1)]).sum(axis=1))
-
-
-def _condensed(columns: NDArray[np.intp], rows: Array, others: Array, count: int) -> Array:
-    """A matrix of B-splines beside other columns; the rows of each polynomial give as few with the same products."""
-    firsts = np.flatnonzero(np.diff(columns, prepend=-1))
-    counts = np.diff(firsts, append=len(columns))
-    rows = np.hstack([rows, others])
-    most, width = int(counts.max()), rows.shape[1]
-    if most > _LONG * width:
-        at = firsts[:, None] + np.arange(most)
-        blocks = np.where((np.arange(most) < counts[:, None])[:, :, None], rows[np.minimum(at, len(rows) - 1)], 0.0)
-        rows = np.asarray(np.linalg.qr(blocks, mode="r")).reshape(-1, width)
-        columns = np.repeat(columns[firsts], width)
-    few = np.zeros((len(rows), count + others.shape[1]))
-    few[np.arange(len(rows))[:, None], columns[:, None] + np.arange(DEGREE + 1)] = rows[:, : DEGREE + 1]
-    few[:, count:] = rows[:, DEGREE + 1 :]
-    return few
-
-
 def _knots(start: float, stop: float, joints: Sequence[Joint], pieces: int) -> Array:
     """Knots of about as many pieces, even between joints."""
     ends = [start, *(joint.place for joint in joints), stop]
@@ -205,39 +168,6 @@ def _knots(start: float, stop: float, joints: Sequence[Joint], pieces: int) -> A
         if i < len(joints):
             inner += [high] * (DEGREE - joints[i].continuity)
     return np.array([*[start] * (DEGREE + 1), *inner, *[stop] * (DEGREE + 1)])
-
-
-class _Solved(NamedTuple):
-    """A spline of the least sum of squares, with the rows between its ends and their B-splines."""
-
-    joints: tuple[Joint, ...]
-    knots: Array
-    inside: slice
-    columns: NDArray[np.intp]
-    rows: Array
-    left: Array  #: what the known coefficients leave of the rows
-    turned: Array
-    known: Array
-    outside: float  #: the sum of squares of the other rows
-    triangle: Array = np.zeros((0, 0))
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        """Where it begins and ends."""
-        return float(self.knots[0]), float(self.knots[-1])
-
-    @property
-    def squares(self) -> float:
-        """The sum of squares over the variance of the noise."""
-        free = self.turned.shape[1]
-        return float((self.triangle[free:, free] ** 2).sum()) + self.outside
-
-    @property
-    def coefficients(self) -> Array:
-        """Those of all B-splines."""
-        free = self.turned.shape[1]
-        solution = np.linalg.solve(self.triangle[:free, :free], self.triangle[:free, free])
-        return np.asarray(self.known + self.turned @ solution)
 
 
 class _Fitter:
@@ -254,121 +184,96 @@ class _Fitter:
     ) -> None:
         self.x, self.y, self.noise, self.ends = places, heights, noise, ends
         self.advance, self.continuity = advance, continuity  # of the turn, and at its seam
+        self.fine = _FINE  # of a step: how near the ends of rests are looked for
 
     def thinned(self) -> _Fitter:
         """The same with fewer rows, for searches."""
         some = slice(None, None, max(1, len(self.x) // _SEARCHED))
-        return _Fitter(self.x[some], self.y[some], self.noise[some], self.ends, self.advance, self.continuity)
+        fewer = _Fitter(self.x[some], self.y[some], self.noise[some], self.ends, self.advance, self.continuity)
+        fewer.fine = _ROUGH
+        return fewer
 
     def with_seam(self, continuity: int) -> _Fitter:
         """The same with as many derivatives continuous at the seam of the turn."""
         return _Fitter(self.x, self.y, self.noise, self.ends, self.advance, continuity)
 
-    def solved(self, at: tuple[float, float], joints: Sequence[Joint], pieces: int) -> _Solved | None:
-        """The spline of the least sum of squares from a start to a stop; None where the rows do not determine it."""
-        start, stop = at
-        if not start < stop:
-            return None
+    def solved(
+        self, start: float, stop: float, joints: Sequence[Joint], pieces: int, *, whole: bool = False
+    ) -> tuple[float, int, CurveFit | None]:
+        """The sum of squares, the number of parameters, and with `whole` the fit."""
         joints = tuple(joint for joint in joints if start < joint.place < stop)
         knots = _knots(start, stop, joints, pieces)
-        first, last = int(np.searchsorted(self.x, start)), int(np.searchsorted(self.x, stop, side="right"))
+        count = len(knots) - DEGREE - 1
+        inside = (self.x >= start) & (self.x <= stop)
         outside = 0.0
-        for end, away in zip(self.ends, (slice(None, first), slice(last, None)), strict=True):
+        for end, away in ((self.ends[0], self.x < start), (self.ends[1], self.x > stop)):
             if end.line is not None:
                 outside += float((((self.y[away] - end.value(self.x[away])) / self.noise[away]) ** 2).sum())
-        turned, known = self._known(knots)
+        turned, coefficients = self._known(knots)
+        rows = _basis(knots, self.x[inside]) if inside.any() else np.zeros((0, count))
+        weights = 1.0 / self.noise[inside]
+        left = (self.y[inside] - rows @ coefficients) * weights
+        matrix = (rows @ turned) * weights[:, None]
         free = turned.shape[1]
-        if last - first < free:
-            return None
-        inside = slice(first, last)
-        columns, rows = _nonzero(knots, self.x[inside])
-        left = self.y[inside] - _times(columns, rows, known)
-        solved = _Solved(joints, knots, inside, columns, rows, left, turned, known, outside)
-        triangle = self._triangle(solved, left[:, None])
-        size = np.abs(np.diag(triangle[:free]))
+        parameters = free + len(joints) + sum(end.line is not None for end in self.ends)
+        if len(left) < free:
+            return np.inf, parameters, None
+        q, r = np.linalg.qr(matrix)
+        size = np.abs(np.diag(r))
         if size.size and size.min() <= 1e-10 * size.max():
-            return None
-        return solved._replace(triangle=triangle)
-
-    def _triangle(self, solved: _Solved, others: Array) -> Array:
-        """R of the QR factorization of the rows' B-splines and of other columns, over their noise."""
-        weights, count = 1.0 / self.noise[solved.inside, None], len(solved.known)
-        few = _condensed(solved.columns, solved.rows * weights, others * weights, count)
-        few = np.hstack([few[:, :count] @ solved.turned, few[:, count:]])
-        return np.asarray(np.linalg.qr(few, mode="r"))
-
-    def squares(self, at: tuple[float, float], joints: Sequence[Joint], pieces: int) -> float:
-        """The least sum of squares; inf where the rows do not determine the spline."""
-        solved = self.solved(at, joints, pieces)
-        return np.inf if solved is None else solved.squares
-
-    def fit(self, at: tuple[float, float], joints: Sequence[Joint], pieces: int) -> CurveFit | None:
-        """The spline of the least sum of squares with the covariance of its coefficients."""
-        solved = self.solved(at, joints, pieces)
-        if solved is None:
-            return None
-        coefficients, free = solved.coefficients, solved.turned.shape[1]
-        factor = solved.turned @ np.linalg.inv(solved.triangle[:free, :free])
-        parameters = free + len(solved.joints) + sum(end.line is not None for end in self.ends)
-        spline = BSpline(solved.knots, coefficients, DEGREE)
-        return CurveFit(spline, factor, solved.joints, solved.squares, parameters, len(self.x), self.ends, pieces)
+            return np.inf, parameters, None
+        along = q.T @ left
+        squares = max(float(left @ left - along @ along), 0.0) + outside
+        if not whole:
+            return squares, parameters, None
+        coefficients = coefficients + turned @ np.linalg.solve(r, along)
+        factor = turned @ np.linalg.inv(r)
+        squares = float((((rows @ coefficients - self.y[inside]) * weights) ** 2).sum()) + outside
+        spline = BSpline(knots, coefficients, DEGREE)
+        return (
+            squares,
+            parameters,
+            CurveFit(spline, factor, joints, squares, parameters, len(self.x), self.ends, pieces),
+        )
 
     def ends_of(
-        self, at: tuple[float, float], joints: Sequence[Joint], pieces: int, width: float | None = None
+        self, start: float, stop: float, joints: Sequence[Joint], pieces: int, width: float | None = None
     ) -> tuple[float, float]:
-        """Where the rests end by the least sum of squares, near a start and a stop in steps of a width, or anywhere.
-
-        It is found by the method of Gauss and Newton for the ends alone, whose columns are projected by those of the
-        coefficients (variable projection, Golub and Pereyra 1973).
-        """
+        """Where the rests end by the least sum of squares, within a width about a start and a stop."""
+        places = [start, stop]
+        step = float(np.median(np.diff(self.x)))
         sides = [side for side, end in enumerate(self.ends) if end.line is not None]
         if width is None:
             # a coarse look over all of the rests' ends first
             for side in sides:
-                tried = np.linspace(self.ends[side].low, self.ends[side].high, _LOOKS).tolist()
-                ends = [(at[0], place) if side else (place, at[1]) for place in tried]
-                at = min(ends, key=lambda each: self.squares(each, joints, pieces))
-            width = max([(self.ends[side].high - self.ends[side].low) / (_LOOKS - 1) for side in sides], default=0.0)
-        least = _FINE * float(np.median(np.diff(self.x)))
-        best = self.solved(at, joints, pieces) if sides else None
-        while best is not None and width > least:
-            step, gain = self._step(best, sides)
-            least_gain = _WORTH * max(best.squares / len(self.x), 1.0)
-            if gain <= least_gain:
-                break
-            step *= width / max(float(np.abs(step).max()), width)
-            tried = np.array(at)
-            tried[sides] = np.clip(tried[sides] + step, *np.array([self.ends[side][1:] for side in sides]).T)
-            apart = float(np.abs(tried - at).max())
-            other = self.solved((float(tried[0]), float(tried[1])), joints, pieces) if apart else None
-            if other is not None and other.squares < best.squares:
-                gain = best.squares - other.squares
-                at, best, width = (float(tried[0]), float(tried[1])), other, 2.0 * width
-                if gain <= least_gain:
-                    break
-            else:
-                width = 0.25 * apart
-        return at
+                end = self.ends[side]
+                tried = np.linspace(end.low, end.high, 9)
+                squares = [self._with(places, side, at, joints, pieces) for at in tried]
+                places[side] = float(tried[int(np.argmin(squares))])
+            width = max([(self.ends[side].high - self.ends[side].low) / 8.0 for side in sides], default=0.0)
+        wide = width
+        middle = self.solved(places[0], places[1], joints, pieces)[0]
+        while sides and wide > self.fine * step:
+            moved = False
+            for side in sides:
+                end, at = self.ends[side], places[side]
+                around = [min(max(at + sign * wide, end.low), end.high) for sign in (-1.0, 1.0)]
+                low, high = (self._with(places, side, place, joints, pieces) for place in around)
+                best = min((low, around[0]), (middle, at), (high, around[1]))
+                bent = low - 2.0 * middle + high
+                if best[1] == at and bent > 0.0 and np.isfinite(bent) and around[1] - at == at - around[0]:
+                    place = at + 0.5 * wide * (low - high) / bent
+                    best = min(best, (self._with(places, side, place, joints, pieces), place))
+                else:
+                    moved = moved or best[1] != at
+                middle, places[side] = best
+            wide *= 1.0 if moved else 0.25
+        return places[0], places[1]
 
-    def _step(self, solved: _Solved, sides: Sequence[int]) -> tuple[Array, float]:
-        """By how much ends are moved for the least sum of squares, if the motion changes in proportion; its fall."""
-        x, spline = self.x[solved.inside], BSpline(solved.knots, solved.coefficients, DEGREE)
-        velocity, slopes = spline(x, 1), []
-        for side in sides:
-            # knots move with the end, in proportion to their distance from the next joint
-            place, near = solved.ends[side], solved.ends[1 - side]
-            if solved.joints:
-                near = solved.joints[-side].place
-            length = near - place
-            knots = solved.knots + _MOVED * np.maximum(0.0, (near - solved.knots) / length) * length
-            changes = (self._known(knots)[1] - solved.known) / (_MOVED * length)
-            share = np.maximum((near - x) / length, 0.0)
-            slopes.append(_times(solved.columns, solved.rows, changes) - share * velocity)
-        triangle = self._triangle(solved, np.column_stack([*slopes, solved.left]))
-        free = solved.turned.shape[1]
-        ends = slice(free, free + len(sides))
-        step = np.linalg.lstsq(triangle[ends, ends], triangle[ends, -1], rcond=None)[0]
-        return np.asarray(step), float(((triangle[ends, ends] @ step) ** 2).sum())
+    def _with(self, places: Sequence[float], side: int, place: float, joints: Sequence[Joint], pieces: int) -> float:
+        """The sum of squares with one end elsewhere."""
+        start, stop = (place, places[1]) if side == 0 else (places[0], place)
+        return self.solved(start, stop, joints, pieces)[0] if start < stop else np.inf
 
     def joint(self, start: float, stop: float, joints: Sequence[Joint], pieces: int) -> Joint | None:
         """The joint that lowers the sum of squares most, the smoothest one of those that do it nearly as much."""
@@ -439,7 +344,7 @@ class _Fitter:
                 squares = []
                 for place in tried:
                     others = sorted([*moved[:i], Joint(float(place), joint.continuity), *moved[i + 1 :]])
-                    squares.append(self.squares(fit, others, pieces))
+                    squares.append(self.solved(*fit, others, pieces)[0])
                 moved[i] = Joint(float(tried[int(np.argmin(squares))]), joint.continuity)
         return tuple(sorted(moved))
 
@@ -546,10 +451,10 @@ class _Search:
             if pieces > self.most:
                 break
             if pieces <= _ENDS_BY:
-                at = self.fitter.ends_of(at, joints, pieces, near)
+                at = self.fitter.ends_of(*at, joints, pieces, near)
             elif fits and near is None:
                 at = self.best(fits).start, self.best(fits).stop
-            fit = self.fitter.fit(at, joints, pieces)
+            fit = self.fitter.solved(*at, joints, pieces, whole=True)[2]
             if fit is None:
                 continue
             fits.append(fit)

@@ -6,14 +6,13 @@ from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TypeAlias
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from optlaws.cycles.old_tables.fitting import SIMPLE, CurveFit, End, fits_of, interpolation
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
-from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on, window_polynomials
+from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on
 from optlaws.cycles.old_tables.standard import Chain, Outline, criterion, spline_of
 from optlaws.numbers import Array
 from optlaws.numerics.roots import bisect
@@ -222,10 +221,15 @@ def lines_of(samples: Samples, first: int, last: int) -> list[Line]:
     rows = max(_WINDOW, count // 25)
     if count < 2 * rows:
         return []
+    u = sliding_window_view(x, rows) - x[: count - rows + 1, None]
+    u = 2.0 * u / u[:, -1:] - 1.0
     size = np.maximum(sliding_window_view(noise, rows), samples.digit / np.sqrt(12.0)).max(axis=1)
-    bent = window_polynomials(sliding_window_view(x, rows), 3)[:, :, 2:]
-    bends = np.einsum("ijk,ij->ik", bent, sliding_window_view(y, rows))
-    straight = (bends**2).sum(axis=1) <= _BENT * size**2
+    values = sliding_window_view(y, rows)
+    projected = [(np.linalg.pinv(u[:, :, None] ** np.arange(degree + 1)) @ values[:, :, None]) for degree in (1, 3)]
+    left = [
+        ((values - ((u[:, :, None] ** np.arange(len(fit[0]))) @ fit)[:, :, 0]) ** 2).sum(axis=1) for fit in projected
+    ]
+    straight = (left[0] - left[1]) <= _BENT * size**2
     lines = []
     edges = np.flatnonzero(np.diff(np.concatenate([[0], straight.astype(int), [0]])))
     for begin, end in zip(edges[::2], edges[1::2], strict=True):
@@ -272,10 +276,10 @@ def motion_of(samples: Samples) -> FittedMotion:
         clean = clean.without(np.isin(clean.places, far))
         rests = rests_of(clean)
     advance, seam = _advance(clean), float(clean.places[-1])
-    crests, known = list[float](), dict[object, _Found]()
+    crests: list[float] = []
     while True:
         begun, rests = _begun(clean, crests, advance)
-        moves, squares, free, left_out = _moves_between(begun, rests, seam, advance, known)
+        moves, total, left_out = _moves_between(begun, rests, seam, advance)
         more = _crests(begun, rests, moves)
         if not more:
             break
@@ -286,27 +290,20 @@ def motion_of(samples: Samples) -> FittedMotion:
     apart = np.abs(samples.places[:, None] - np.array(far)), np.abs(samples.places[:, None] + turn - np.array(far))
     suspects = samples.suspects | (np.minimum(*apart) < _SAME * turn).any(axis=1)
     moves.sort(key=lambda move: move.start)
-    return FittedMotion(replace(samples, suspects=suspects), tuple(moves), squares / max(free, 1.0))
-
-
-#: the moves of a region, the sum of their squares, the degrees of freedom left, and places far off
-_Found: TypeAlias = tuple[list[FittedMove], float, float, list[float]]
+    return FittedMotion(replace(samples, suspects=suspects), tuple(moves), total[0] / max(total[1], 1.0))
 
 
 def _moves_between(
-    samples: Samples, rests: Sequence[Line], seam: float, advance: float, known: dict[object, _Found]
-) -> _Found:
-    """The moves between rests; regions that are `known` are as before."""
-    moves, squares, free, far = list[FittedMove](), 0.0, 1.0, list[float]()
+    samples: Samples, rests: Sequence[Line], seam: float, advance: float
+) -> tuple[list[FittedMove], list[float], list[float]]:
+    """The moves between rests, the sum of their squares with the degrees of freedom left, and places far off."""
+    moves, total, far = list[FittedMove](), [0.0, 1.0], list[float]()
     for before, after in pairwise([None, *rests, None]):
-        key = float(samples.places[0]), before, after
-        if key not in known:
-            region, counts = _Region(samples, before, after, seam, advance, split=True), [0.0, 0.0]
-            in_region = list(region.moves(counts)) if region.moves_at_all else []
-            known[key] = in_region, counts[0], counts[1], region.far
-        of_region, more_squares, more_free, more_far = known[key]
-        moves, squares, free, far = moves + of_region, squares + more_squares, free + more_free, far + more_far
-    return moves, squares, free, far
+        region = _Region(samples, before, after, seam, advance, split=True)
+        if region.moves_at_all:
+            moves += region.moves(total)
+            far += region.far
+    return moves, total, far
 
 
 def _crests(samples: Samples, rests: Sequence[Line], moves: Sequence[FittedMove]) -> list[float]:

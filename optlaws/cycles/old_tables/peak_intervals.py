@@ -10,7 +10,6 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from optlaws.cycles.old_tables.fitting import SIMPLE, CurveFit
-from optlaws.cycles.old_tables.samples import window_polynomials
 from optlaws.numbers import Array
 
 #: standard deviations by which estimates in bands are off at most, and in windows beyond what is usual for as many
@@ -76,10 +75,8 @@ def least_peak(places: Array, heights: Array, noise: Array, digit: float, nu: in
         y = sliding_window_view(heights, rows)[starts]
         sizes = sliding_window_view(noise, rows)[starts]
         span = 0.5 * (x[:, -1] - x[:, 0])
-        weights = window_polynomials(x, nu)[:, :, nu]
-        # the derivative of what is in proportion to the highest polynomial
         u = (x - 0.5 * (x[:, -1] + x[:, 0])[:, None]) / span[:, None]
-        weights = weights * (_FACTORIALS[nu] / (weights * u**nu).sum(axis=1))[:, None]
+        weights = np.linalg.pinv(u[:, :, None] ** np.arange(nu + 1))[:, nu, :] * _FACTORIALS[nu]
         values = np.abs((weights * y).sum(axis=1))
         errors = (np.sqrt(2.0 * np.log(len(x) + 1.0)) + _BEYOND) * np.sqrt(((weights * sizes) ** 2).sum(axis=1))
         if digit > 0.0:

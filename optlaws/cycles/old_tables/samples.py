@@ -36,8 +36,6 @@ _BOTH = 0.35
 _BEYOND_ROUNDING = 1.3
 #: differences whose size is by so much less than that of the order below are no noise
 _STILL_FALLING = 0.5
-#: of half a window: places in it that are even have no more from where they are
-_EVEN = 1e-11
 #: decimals that a rounded number has at most
 _DECIMALS = 9
 
@@ -196,26 +194,6 @@ def difference_weights(places: Array, order: int) -> Array:
     apart = k[:, :, None] - k[:, None, :] + np.eye(order + 1)
     weights = 1.0 / apart.prod(axis=2)
     return np.asarray(weights / np.sqrt((weights**2).sum(axis=1))[:, None])
-
-
-def window_polynomials(places: Array, degree: int) -> Array:
-    """Orthonormal polynomials up to a degree in windows of places, shape (windows, rows, degree + 1).
-
-    The windows have shape (windows, rows). All even ones have the same polynomials, which are computed once.
-
-    Examples
-    --------
-    >>> x = sliding_window_view(np.linspace(0.0, 360.0, 721), 9)
-    >>> q = window_polynomials(x, 3)
-    >>> bool(np.abs(q[5].T @ q[5] - np.eye(4)).max() < 1e-12), bool(np.abs(q[5, :, 2:].T @ x[5]).max() < 1e-9)
-    (True, True)
-    """
-    middle, half = 0.5 * (places[:, -1:] + places[:, :1]), 0.5 * (places[:, -1:] - places[:, :1])
-    u, even = (places - middle) / half, np.linspace(-1.0, 1.0, places.shape[1])
-    uneven = np.abs(u - even).max(axis=1) > _EVEN
-    distinct = np.vstack([even, u[uneven]])
-    polynomials = np.linalg.qr(distinct[:, :, None] ** np.arange(degree + 1))[0]
-    return np.asarray(polynomials[np.where(uneven, np.cumsum(uneven), 0)])
 
 
 def goes_on(places: Array, heights: Array, noise: Array) -> bool:
