@@ -30,6 +30,11 @@ class Interrupted(KeyboardInterrupt):
     ----------
     partial
         A result of the kind that the work would have given, of what was computed by then.
+
+    Examples
+    --------
+    >>> Interrupted("stopped after 1 of 3 laws", ["modified sine"]).partial
+    ['modified sine']
     """
 
     def __init__(self, text: str, partial: Any) -> None:

@@ -23,7 +23,6 @@ from optlaws.cams.curves.motion_by_angle import as_motion
 from optlaws.cams.disc import DiscCam, Turning, sense
 from optlaws.cams.followers.contact import CURVATURE, PRESSURE, FollowerContact, LinearLimit
 from optlaws.cams.followers.follower import CamFollower, Place, shown
-from optlaws.cams.followers.rollers import SlidingRoller
 from optlaws.cams.least_sizes import CamLimits, LeastPrimeCircle, least_prime_circle
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
@@ -525,8 +524,7 @@ class RollerCurvature:
         """
         piece, contact, radius = self.piece, self.contact, self.radius
         angle, rest = TURN * piece.duration / self.period, 1.0 if piece.stroke > 0.0 else 0.0
-        centred = isinstance(contact, SlidingRoller) and contact.offset == 0.0
-        if not centred or angle >= pi or abs(float(piece.law.b(rest))) > _PLANE_SLACK:
+        if not contact.meets_axis or angle >= pi or abs(float(piece.law.b(rest))) > _PLANE_SLACK:
             return False
         shift = contact.level - contact.lowest + piece.offset
         near, far = sorted(shift + piece.stroke * float(piece.law.a(k)) for k in (0.0, 1.0))

@@ -146,10 +146,12 @@ def test_a_cycle_stands_beside_modified_sine_in_the_same_moves() -> None:
     report = best.report()
     table = report.tables[1]
     assert table.headings == ["what", "modified sine", "this law", "difference", "unit"]
-    names = ["velocity", "acceleration", "jerk", "rms acceleration", "torque", "rms torque", "power", "energy"]
+    names = ["acceleration", "velocity", "jerk", "rms acceleration", "torque", "rms torque", "power", "energy"]
     assert [row[0] for row in table.rows] == names
-    for name, usual, chosen, text, _ in table.rows:
-        assert (usual, chosen) == (pytest.approx(sine.value(name), rel=1e-12), best.value(name))
+    for name, usual, chosen, text, unit in table.rows:
+        degrees = 180.0 / np.pi if unit == "deg/s" else 1.0
+        values = [degrees * cycle.value(name) for cycle in (sine, best)]
+        assert [usual, chosen] == pytest.approx(values, rel=1e-12)
         assert text == f"{100.0 * (chosen / usual - 1.0):+.1f} %"
     known = report.data["usual_law"]
     assert (known["name"], [each["name"] for each in known["values"]]) == ("modified sine", names)

@@ -146,7 +146,7 @@ def test_peaks_of_a_lossy_gear_with_a_load_are_kept_and_called_local() -> None:
         Mechanism("0.8 kg m^2", load="3*sin(x)", coulomb=0.3), Motor("3e-4 kg m^2"), ratio=20, efficiency=0.85
     )
     best = Cycle(INDEXED, **EACH, minimise="torque", drive=drive)
-    assert "any law that never turns back" in best.remarks[-1]
+    assert "all laws that never turn back" in best.remarks[-1]
     assert best.status.value == "local"
     limit = drive.limit("peak torque", "0 deg", "45 deg", "0.25 s")
     assert best.lower_bound == limit.value

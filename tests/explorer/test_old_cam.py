@@ -101,7 +101,7 @@ def test_better_laws_are_the_library_s_and_so_are_their_files(served: Server, tu
     cycle = better.cycle(speed="200 rpm")
     results = served.ask("export", {"kind": "csv", "view": "old", "request": old, "points": 91})
     assert results["text"] == cycle.export("csv", points=91).text
-    kept = served.ask("save", {"kind": "law", "view": "old", "request": old})
+    kept = served.ask("save", {"kind": "cycle", "view": "old", "request": old})
     assert Cycle.from_json(kept["text"]).peak(2) == cycle.peak(2)
     assert "have no name" in served.ask("save", {"kind": "problem", "view": "old", "request": old})["error"]
     proof = served.ask("save", {"kind": "proof", "view": "old", "request": old})["text"]

@@ -89,5 +89,5 @@ def test_errors_are_one_tree() -> None:
     for name, member in inspect.getmembers(errors, lambda member: getattr(member, "__module__", "") == errors.__name__):
         if not inspect.isclass(member):
             continue
-        assert issubclass(member, OptlawsError | Warning), name
+        assert issubclass(member, OptlawsError | Warning | KeyboardInterrupt), name
         assert ">>>" in (inspect.getdoc(member) or "")

@@ -101,7 +101,7 @@ def test_a_row_without_a_law_needs_a_proof(tmp_path: File, capsys: pytest.Captur
     assert isinstance(caught.value.proof, Certificate)
     row = {"asked": NO_LAW.to_dict(), "status": "infeasible", "solution": None}
     assert code_of({"rows": [row]}, tmp_path) == 1
-    assert "infeasible: no certificate stands beside it" in capsys.readouterr().err
+    assert "infeasible: no certificate stands beside it" in capsys.readouterr().out
     proof = caught.value.proof.to_dict()
     assert code_of({"rows": [row | {"proof": proof}]}, tmp_path) == 0
     assert code_of({"rows": [row | {"proof": proof, "asked": CONVEX.to_dict()}]}, tmp_path) == 1

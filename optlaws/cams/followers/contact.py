@@ -169,6 +169,11 @@ class FollowerContact(ABC):
         """The distance of the pivot from the cam's centre; None on a slide."""
         return None
 
+    @property
+    def meets_axis(self) -> bool:
+        """Whether it is a roller whose centre slides on a line through the cam's axis."""
+        return False
+
     @abstractmethod
     def point(self, s: Jet) -> Pair:
         """The roller's centre, or where the face touches."""

@@ -189,6 +189,10 @@ class SlidingRoller(RollerContact):
 
     offset: float
 
+    @property
+    def meets_axis(self) -> bool:
+        return self.offset == 0.0
+
     def point(self, s: Jet) -> Pair:
         y = s + (self.level - self.lowest)
         return y * 0.0 + self.offset, y
