@@ -415,7 +415,6 @@ def test_a_question_that_takes_long_can_be_stopped_and_undone(page: Page, served
     go(page, served.link(laws=[at_velocity(1.7)], picture="residual"))
     page.get_by_label("Objective as a formula").fill("peak(cos(7*c)*sin(3*b))")
     settle(page)
-    page.locator("#plane svg").first.wait_for()
     plane = page.locator("#plane").bounding_box()
     page.get_by_label("Objective as a formula").press("Enter")
     page.locator("#work", has_text=re.compile(r"optimal laws and their bounds · \d+ s")).wait_for(timeout=60_000)
