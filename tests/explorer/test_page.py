@@ -418,7 +418,11 @@ def test_a_question_that_takes_long_can_be_stopped_and_undone(page: Page, served
     plane = page.locator("#plane").bounding_box()
     page.get_by_label("Objective as a formula").press("Enter")
     page.locator("#work", has_text=re.compile(r"optimal laws and their bounds · \d+ s")).wait_for(timeout=60_000)
-    assert page.locator("#plane").bounding_box() == plane
+    # the notice moves nothing; how high the picture is depends on what it shows
+    now = page.locator("#plane").bounding_box()
+    assert plane is not None
+    assert now is not None
+    assert (now["x"], now["y"]) == (plane["x"], plane["y"])
     page.get_by_role("button", name="Stop").click()
     settle(page)
     assert "no answer" in page.locator("#trust").inner_text()

@@ -3,9 +3,13 @@
 import { minimise } from "./asked.js";
 import { PARTS, VIEWS, object } from "./views.js";
 
-const MERGED = 800; // ms within which changes of one thing are one step
+const MERGED = 800; // ms within which changes of one thing are one step; those of one press of the pointer always are
 const MOST = 200;
 const WRITTEN = 120; // ms after the last change the address holds it
+
+const press = { down: false, count: 0 };
+globalThis.addEventListener?.("pointerdown", () => Object.assign(press, { down: true, count: press.count + 1 }), true);
+for (const end of ["pointerup", "pointercancel"]) globalThis.addEventListener?.(end, () => (press.down = false));
 
 export const FIRST = {
   name: "",
@@ -139,9 +143,10 @@ export class Study {
     alter(next);
     if (same(before, next)) return;
     const now = performance.now();
-    const merged = what === this.#last.what && now - this.#last.at < MERGED && this.#past.length > 0;
+    const dragged = press.down && this.#last.press === press.count;
+    const merged = what === this.#last.what && (dragged || now - this.#last.at < MERGED) && this.#past.length > 0;
     if (!merged) this.#past = [...this.#past, before].slice(-MOST);
-    this.#last = { what, at: now };
+    this.#last = { what, at: now, press: press.count };
     this.#future = [];
     this.#show(next);
   }
