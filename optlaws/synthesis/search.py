@@ -287,24 +287,12 @@ def _of_any_way(search: LawSearch) -> Solution | None:
         return min(known, key=lambda answer: abs(answer.gap), default=None)
     if problem.convex and _beyond_proof(solution):
         return solved_without_interior(search) or solution
-    if problem.convex and not problem.mirrored and solution.status is Status.INACCURATE:
-        # contacts that depend on each other have multipliers that prove nothing; those of a vertex do
-        vertex = _from_vertices(search)
-        return solution if vertex is None else min(solution, vertex, key=lambda answer: abs(answer.gap))
     if problem.mirrored and solution.status is Status.INACCURATE:
         unfolded = from_symmetric(search)
         # a law that breaks a bound by the little that is allowed may seem nearer its bound
         exact = evaluate(problem, solution.law).excess <= _UNDIVIDED_ROUNDING
         return solution if unfolded is None or (exact and unfolded.gap >= solution.gap) else unfolded
     return solution
-
-
-def _from_vertices(search: LawSearch) -> Solution | None:
-    """The best law of a linear program by its vertices."""
-    if search.model.program.curved:
-        return None
-    optimum = solve(search.model.program, vertices=True).optimum
-    return None if optimum is None else LawSearch(search.model, warm=optimum, began=search.began).answer()
 
 
 def continued_by_contacts(search: LawSearch) -> Solution | None:

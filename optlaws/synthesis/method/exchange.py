@@ -84,15 +84,13 @@ class Outcome:
 class _Options:
     """How a program is solved.
 
-    `holds` may decide from x alone, and more quickly than the families do, whether every constraint holds. A linear
-    program may be solved on its points by `vertices` alone.
+    `holds` may decide from x alone, and more quickly than the families do, whether every constraint holds.
     """
 
     start: Array | None
     holds: Callable[[Array], bool] | None
     rounds: int
     method: Method
-    vertices: bool = False
 
 
 def solve(
@@ -103,19 +101,17 @@ def solve(
     holds: Callable[[Array], bool] | None = None,
     rounds: int = ROUNDS,
     method: Method = "auto",
-    vertices: bool = False,
 ) -> Outcome:
     """Solve a semi-infinite program; a neighbour's optimum as `warm` is tried first, and the solver begins at `start`.
 
     `holds` may decide from x alone, and more quickly than the families do, whether every constraint holds. Of very many
-    families those that bind are found by exchange: a law that none of the others excludes is the optimum of all. The
-    answers on points are `vertices` where the multipliers of an interior point hide what a vertex shows.
+    families those that bind are found by exchange: a law that none of the others excludes is the optimum of all.
     """
     few = binding_few(program)
     if few is None:
-        return _in_units(program, warm, _Options(start, holds, rounds, method, vertices))
+        return _in_units(program, warm, _Options(start, holds, rounds, method))
     while True:
-        outcome = _in_units(few.program, few.inward(warm), _Options(start, None, rounds, method, vertices))
+        outcome = _in_units(few.program, few.inward(warm), _Options(start, None, rounds, method))
         warm = None if outcome.optimum is None else few.outward(outcome.optimum)
         more = None if warm is None else few.joined_beyond(warm.x)
         if more is None:
@@ -241,9 +237,6 @@ class _Exchange:
             fine = self.count > 1 and _only(program, LinearFamily, ConeFamily, EnergyFamily)
             answer = solve_on_points(program, points, self.start, fine=fine)
             yield answer if answer.usable or not fine else solve_on_points(program, points, self.start)
-        elif self.options.vertices:
-            vertex = vertex_on_points(program, points)
-            yield Answer.missing(program, points, "no vertex") if vertex is None else vertex
         elif self.convex:
             yield answer_on_points(program, points, self.start)
         else:

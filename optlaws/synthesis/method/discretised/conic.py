@@ -25,11 +25,6 @@ INFEASIBLE = "PrimalInfeasible"
 _STUCK = ("InsufficientProgress", "NumericalError", "MaxIterations")
 
 
-def conic(program: Program) -> bool:
-    """Whether every family is linear, a norm, quadratic or conic, but not all are linear."""
-    return program.curved and all(map(of_cones, program.families))
-
-
 def of_cones(family: ConstraintFamily) -> bool:
     """Whether a family at a place is a linear row or a second-order cone."""
     if isinstance(family, FormulaFamily):
