@@ -190,7 +190,9 @@ def test_a_polynomial_beside_a_line_takes_its_slope(tmp_path: Path) -> None:
 
 
 @pytest.mark.sample(2)
-@pytest.mark.parametrize("name", ["codesys-xyva", "twincat-nc2", "siemens-points", "csv", "iec-st"])
+@pytest.mark.parametrize(
+    "name", ["codesys-xyva", "twincat-nc2", "siemens-points", "csv", "iec-st", "iec-st-real", "br-acp10"]
+)
 def test_functions_of_our_exports_come_back_as_the_cycle_they_were(name: str, tmp_path: Path) -> None:
     options: dict[str, Any] = {"interpolation": "quintic", "points": 601} if name == "csv" else {}
     made = press().export(name, master="360 deg", unit="mm", **options)

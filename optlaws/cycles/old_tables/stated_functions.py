@@ -15,13 +15,12 @@ from optlaws.cycles.old_tables.stretches import Stretch, StretchKind
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.catalogue.tables.curve_pieces import APART, CurvePiece, law_of_pieces
+from optlaws.laws.catalogue.tables.curve_pieces import APART, REAL32, CurvePiece, law_of_pieces
 
 #: positions, or positions, velocities and accelerations, at points inside a move that tell its law, whatever a
 #: controller runs between these
 _ENOUGH = 8
 _PLACES = 201
-_REAL32 = 1.2e-7  # of a number, its last digit
 _WITHIN = np.linspace(0.0, 1.0, 9)
 
 
@@ -88,7 +87,7 @@ def _between_turns(piece: CurvePiece) -> list[CurvePiece]:
         return [piece]
     roots = np.atleast_1d(Polynomial(np.trim_zeros(piece.values, "b")).deriv().roots())
     turns = sorted(float(root.real) for root in roots if abs(root.imag) <= APART < root.real < 1.0 - APART)
-    places, least = [0.0], _REAL32 * sum(map(abs, piece.values[1:]))
+    places, least = [0.0], REAL32 * sum(map(abs, piece.values[1:]))
     for turn in turns:
         before, here, last = piece.at(np.array([places[-1], turn, 1.0])).tolist()
         if min(abs(here - before), abs(last - here)) > least:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from itertools import pairwise
+from copy import deepcopy
+from itertools import pairwise, zip_longest
 from math import factorial, perm
 from typing import NamedTuple
 
@@ -23,6 +24,10 @@ from optlaws.numerics import chebyshev
 
 #: of the positions: by how much pieces may be apart where they meet, as REAL32 leaves them
 APART = 1e-6
+#: of a number in single precision: its last digit
+REAL32 = 2.0**-23
+
+_JOINED = range(3)  # the orders of the derivatives in which pieces are made to meet
 
 _POLYNOMIAL = re.compile(r"POLY(?:NOM(?:IAL)?)?_?([1357])(?:_MM)?", re.IGNORECASE)
 _DEGREES = {"linear": 1, "line": 1, "dwell": 1, "polyfive": 5}
@@ -184,6 +189,55 @@ def check_joints(pieces: Sequence[CurvePiece], lines: Sequence[int]) -> None:
                 f"line {line}: a piece ends at {before.stop:.9g} with the position {stop:.9g} and the next begins at "
                 f"{after.start:.9g} with {start:.9g}: the pieces do not follow each other, mend one"
             )
+
+
+def joined(pieces: Sequence[CurvePiece]) -> list[CurvePiece]:
+    """Pieces without the differences that single precision leaves where they meet, also the last one and the first one.
+
+    Positions, velocities and accelerations that differ by no more than rounding of their coefficients and places are
+    made equal, by polynomials of degree 5 that are as small; other jumps stay.
+
+    >>> parts = joined([powers(0.0, 1.0, [0.0, 0.0, 1.0]), powers(1.0, 2.0, [1.0, 2.0000001])])
+    >>> parts[0].at(np.array([1.0]), 1) == parts[1].at(np.array([0.0]), 1)
+    array([ True])
+    """
+    ends = [[[float(piece.at(np.array([u]), nu)[0]) for nu in _JOINED] for u in (0.0, 1.0)] for piece in pieces]
+    common = deepcopy(ends)
+    for i, before in enumerate(pieces):
+        j = (i + 1) % len(pieces)
+        for nu in _JOINED[1:] if j == 0 else _JOINED:  # a turn may end elsewhere than it begins
+            sides = ends[i][1][nu], ends[j][0][nu]
+            room = _rounding(before, nu) + _rounding(pieces[j], nu)
+            if abs(sides[0] - sides[1]) > room:
+                continue
+            exact = [side for side, piece in zip(sides, (before, pieces[j]), strict=True) if not _is_curve(piece)]
+            level = exact[0] if exact else 0.0 if nu and max(map(abs, sides)) <= room else sides[1]
+            common[i][1][nu] = common[j][0][nu] = level
+    return [
+        piece._replace(values=_moved(piece, old, new)) if old != new and _is_curve(piece) else piece
+        for piece, old, new in zip(pieces, ends, common, strict=True)
+    ]
+
+
+def _is_curve(piece: CurvePiece) -> bool:
+    """Whether it is a polynomial that is not constant."""
+    return not piece.law and any(piece.values[1:])
+
+
+def _rounding(piece: CurvePiece, nu: int) -> float:
+    """What single precision of its coefficients and of the places of its ends may change in a derivative."""
+    sizes = [
+        sum(perm(n, order) * abs(value) for n, value in enumerate(piece.values)) / piece.length**order
+        for order in (nu, nu + 1)
+    ]
+    return REAL32 * (sizes[0] + sizes[1] * max(abs(piece.start), abs(piece.stop)))
+
+
+def _moved(piece: CurvePiece, old: Sequence[Sequence[float]], new: Sequence[Sequence[float]]) -> tuple[float, ...]:
+    """The coefficients of a piece with other values and derivatives at its ends."""
+    changes = [[b - a for a, b in zip(*each, strict=True)] for each in zip(old, new, strict=True)]
+    change = hermite(piece.start, piece.stop, *changes).values
+    return tuple(a + b for a, b in zip_longest(piece.values, change, fillvalue=0.0))
 
 
 def law_of_pieces(pieces: Sequence[CurvePiece]) -> MotionLaw:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optlaws.laws.catalogue.tables.curve_pieces import CurvePiece, check_joints
+from optlaws.laws.catalogue.tables.curve_pieces import CurvePiece, check_joints, joined
 from optlaws.numbers import Array
 
 
@@ -59,6 +59,7 @@ class TablePoints:
     ) -> TablePoints:
         """Pieces that follow each other, with the points where they meet."""
         check_joints(pieces, lines)
+        pieces = joined(pieces)
         places = [*(piece.start for piece in pieces), pieces[-1].stop]
         heights = [*(piece.ends[0] for piece in pieces), pieces[-1].ends[1]]
         return cls(np.array(places), np.array(heights), 0.0, layout, tuple(pieces), units, lines)
