@@ -274,6 +274,10 @@ def test_the_least_power_of_a_cam_is_the_least_torque_at_its_shaft() -> None:
     assert best.lower_bound / rate <= torques[0] < 0.98 * torques[1]
     assert np.degrees(best.cam.extremes.greatest_pressure_angle.value) <= 28.0 * (1.0 + 1e-6)
     assert best.status.value == "local"
+    # in the dwell above, whatever the laws: these have the least acceleration of those that take no more elsewhere
+    slow = replace(cycle, speed="150 rpm", minimise="force")
+    pressed = best_cam(slow, "50 mm", roller, pressure_angle="28 deg")
+    assert pressed.lower_bound == pytest.approx(pressed.objective, rel=1e-12) == 25.0 + 1.95 * 35.0
 
 
 def test_the_least_prime_circle_keeps_a_radius_of_curvature_beside_the_pressure_angle() -> None:

@@ -466,9 +466,11 @@ def bound_of(layout: Layout, solved: Laws, objective: CycleObjective, period: fl
 
 
 def span_bound(span: LawSpan, solution: Solution, objective: CycleObjective) -> float:
-    """The lower bound of a span in SI units."""
+    """The lower bound of a span in SI units; without its law where that has the least of something else."""
     exact = is_exact(span, objective)
     value = span_value(span, objective.drive, objective.kind, mean=objective.mean)
+    if solution.problem.minimise not in {value.objective, value.constants[0].name}:
+        return max(_bound_of_drive(span, objective), -inf if value.summed else 0.0)
     if value.summed:
         proven = value.bound(solution.problem, solution.lower_bound if exact else -inf)
     else:
