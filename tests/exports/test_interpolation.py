@@ -1,6 +1,5 @@
 """Interpolations as controllers make them: scipy's own curves, the golden spline of MCCP, the table of as-run peaks."""
 
-import csv
 from typing import Any
 
 import numpy as np
@@ -8,13 +7,11 @@ import pytest
 from scipy.interpolate import Akima1DInterpolator, BPoly, CubicHermiteSpline, CubicSpline
 
 from optlaws import InputError, PiecewiseMotion, smoothstep
-from tests.documents import ROOT
 from tests.exports.interpolations import akima, cubic_spline, hermite, linear, sampled
 from tests.exports.samples import optimal
+from tests.tables import rows
 
 ORDERS = {"c1": 2, "quintic": 3, "septic": 4}
-TABLE = (ROOT / "tests/reference/as_run.csv").read_text("utf-8")
-ROWS = list(csv.DictReader(line for line in TABLE.splitlines() if not line.startswith("#")))
 
 
 def as_run(model: str, held: str, points: int) -> PiecewiseMotion:
@@ -32,7 +29,7 @@ def as_run(model: str, held: str, points: int) -> PiecewiseMotion:
     return akima(k, y) if model == "akima" else cubic_spline(k, y)
 
 
-@pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row['model']}-{row['held']}-{row['points']}")
+@pytest.mark.parametrize("row", rows("as_run"), ids=lambda row: f"{row['model']}-{row['held']}-{row['points']}")
 def test_the_table_of_peaks_as_run(row: dict[str, str]) -> None:
     run, constants = as_run(row["model"], row["held"], int(row["points"])), optimal().constants
     if row["model"] == "linear":  # what a task of 1000 ticks commands: second differences

@@ -9,8 +9,8 @@ from optlaws import Certificate, MotionLaw, Problem, synthesize
 from tests.documents import ROOT
 from tests.internals.jobs import job
 from tests.jobs.examples import SOLUTIONS
-from tests.problems.written import table
 from tests.sampling import sampled
+from tests.tables import table
 
 
 def run(folder: Path, text: str) -> Path:

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from optlaws import InputError, PolynomialLaw, SavinFamily, savin, smoothstep
 from tests.internals.laws import alpha_range
-from tests.laws.reference import rows
 from tests.sampling import examples
+from tests.tables import rows
 
-PEAKS, LEAST, START = (rows(f"savin_{name}.csv") for name in ("peaks", "least", "start"))
+PEAKS, LEAST, START = (rows(f"savin_{name}") for name in ("peaks", "least", "start"))
 Powers = Callable[[Fraction], list[Any]]
 PRINTED: dict[
     str, tuple[int, Powers]

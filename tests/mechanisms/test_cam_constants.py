@@ -27,7 +27,7 @@ from optlaws import (
 )
 from tests.internals.mechanisms import gain
 from tests.mechanisms.cam_programs import PLACES, integrated, least_cam_acceleration
-from tests.mechanisms.reference import rows
+from tests.tables import rows
 
 CASES = [(*member, damping) for member in (("III", 7.2, 4), ("IV", 11.0, 5)) for damping in (0.0, 0.05)]
 

@@ -1,14 +1,31 @@
 """The experiment's two cams, at and off their design, against the digest's numbers."""
 
 from fractions import Fraction
+from functools import cache
 
 import pytest
 
-from optlaws import Follower, savin
+from optlaws import Follower, MotionLaw, catalogue, polydyne, savin
 from tests.internals.mechanisms import cam_powers
-from tests.mechanisms.savin_cases import cam, reference, rows
+from tests.tables import rows
 
-COEFFICIENTS, PEAKS, OFF_DESIGN = rows("cam_coeffs"), rows("cam_peaks"), rows("off_design")
+COEFFICIENTS, PEAKS, OFF_DESIGN = rows("savin_cam_coeffs"), rows("savin_cam_peaks"), rows("savin_off_design")
+
+
+ALPHA = {"III": 7.2, "IV": 11.0}
+
+
+@cache
+def reference(law: str) -> MotionLaw:
+    """The law meant for the mass: of a family, or the simple harmonic one, K."""
+    family = law.removesuffix("_rigid")
+    return catalogue["simple harmonic"].law if family == "K" else savin(family, ALPHA[family])
+
+
+@cache
+def cam(law: str, n_design: str) -> MotionLaw:
+    """What is cut on the cam: for nu = 20 and n_design, or the law itself where there is none."""
+    return polydyne(reference(law), frequency=20, damping=float(n_design) / 20) if n_design else reference(law)
 
 
 def name(row: dict[str, str]) -> str:

@@ -1,10 +1,14 @@
 """A problem in a problem file: bases of pieces, bounds of any constant, an inflexion."""
 
+import json
+import sys
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from optlaws import BSplines, InputError, Pieces, Problem, at_most, between
+from tests.internals.cli import exit_code
 from tests.internals.studies import problem
 from tests.internals.synthesis import PROBLEM
 
@@ -49,3 +53,35 @@ def test_every_entry_is_read() -> None:
 def test_entries_that_make_no_sense_are_refused(entries: dict[str, Any], text: str) -> None:
     with pytest.raises(InputError, match=text):
         asked(order=3, **entries)
+
+
+# --- the command ---
+
+
+def test_the_command_study_says_what_it_did(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file, out = tmp_path / "small.toml", str(tmp_path / "study")
+    file.write_text("[problem]\norder = 4\n[vary]\nB = [1.5, 1.2]\ndegree = [3]\n")
+    assert exit_code(["study", str(file), "--out", out, "--workers", "1", "--json"]) == 0
+    results = capsys.readouterr()
+    assert json.loads(results.out)["counts"] == {"optimal": 1, "infeasible": 1}
+    assert "2 of 2" in results.err
+    assert exit_code(["study", "--status", out]) == 0
+    assert "2 of 2 points (finished)" in capsys.readouterr().out
+    for wrong, text in (
+        ([], "name a study file"),
+        ([str(file), "--status", out], "--status takes a directory and neither"),
+        ([str(tmp_path / "no.toml")], "cannot read"),
+        (["--status", str(tmp_path)], "contains no study"),
+    ):
+        assert exit_code(["study", *wrong]) == 2
+        assert text in capsys.readouterr().err
+
+
+def test_a_cluster_without_its_package_is_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "small.toml"
+    file.write_text("[problem]\norder = 4\n[vary]\nB = [1.5]\n")
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    assert exit_code(["study", str(file), "--dask", "tcp://x:1"]) == 2
+    assert "pip install 'optlaws[cluster]'" in capsys.readouterr().err

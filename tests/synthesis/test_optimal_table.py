@@ -1,6 +1,5 @@
 """All rows of the printed table: what the printed Z(k) gives, and the optimum of the same shape."""
 
-import csv
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
@@ -20,16 +19,9 @@ from optlaws import (
     synthesize,
 )
 from tests.documents import ROOT
+from tests.tables import rows, table
 
-
-def data(path: str) -> list[dict[str, str]]:
-    lines = (ROOT / path).read_text("utf-8").splitlines()
-    assert lines[0].startswith("#"), "the first line names the source"
-    return list(csv.DictReader(line for line in lines if not line.startswith("#")))
-
-
-PRINTED = data("problems/data/optimal_table_printed.csv")
-EXACT = data("tests/reference/optimal_table_exact.csv")
+PRINTED, EXACT = table(ROOT / "problems/data/optimal_table_printed.csv"), rows("optimal_table_exact")
 ROWS = [
     pytest.param(one, other, id=one["B"]) for one, other in zip(PRINTED, EXACT, strict=True)
 ]  # fails at once if a row is missing in either

@@ -7,7 +7,7 @@ import pytest
 
 from optlaws import InfeasibleProblem, InputError, catalogue, compare_dwell_mechanisms, deg, dwell_mechanism
 from tests.internals.balancing import least_dwell
-from tests.mechanisms.reference import rows
+from tests.tables import rows
 
 K = catalogue["K"].law
 GIVEN: dict[str, Any] = {"swing": deg(20), "radius_ratio": 0.35 / deg(20), "inertia_ratio": 0.1}

@@ -11,7 +11,7 @@ from optlaws import Clutch, InputError, catalogue, deg, dwell_mechanism, smooths
 from optlaws.typing import DwellType
 from tests.balancing.dwells.test_mechanism import example, mechanism
 from tests.internals.balancing import DwellMechanism, exact_swing
-from tests.mechanisms.reference import rows
+from tests.tables import rows
 
 
 @pytest.mark.parametrize("kind", sorted({row["type"] for row in rows("types_clutch")}))

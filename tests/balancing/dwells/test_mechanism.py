@@ -13,8 +13,8 @@ from scipy.integrate import quad
 from optlaws import InputError, MotionLaw, catalogue, deg, dwell_mechanism, smoothstep
 from tests.internals.balancing import DwellMechanism, DwellType
 from tests.laws.examples import free_function_law
-from tests.mechanisms.reference import rows
 from tests.sampling import examples
+from tests.tables import rows
 
 K = catalogue["K"].law
 SIX_DIGITS = 5.1e-6

@@ -1,22 +1,15 @@
 """Reference cases of the torsion lever, and the motion of the truncated equation."""
 
-import csv
 from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws import TorsionLever, deg
-from tests.documents import ROOT
 from tests.internals.balancing import LeverMotion, swung, upper_extreme
 
 Array = NDArray[np.float64]
 Row = Mapping[str, str]
-
-
-def rows(name: str) -> list[dict[str, str]]:
-    text = (ROOT / "tests" / "reference" / f"{name}.csv").read_text(encoding="utf-8")
-    return list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))
 
 
 def lever(row: Row, lam: str = "lambda", **limits: float) -> TorsionLever:

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from optlaws import InputError, TorsionLever, deg
-from tests.balancing.levers.cases import Row, apart, lever, rows, truncated
+from tests.balancing.levers.cases import Row, apart, lever, truncated
 from tests.internals.balancing import FourBar
+from tests.tables import rows
 
 CASES = rows("lever_asym_vs_ode")
 STUDY = rows("lever_parametric")

@@ -25,8 +25,8 @@ from optlaws import (
 )
 from tests.internals.laws import PolynomialSegment, PowerSegment
 from tests.laws.examples import free_function_law, random_law
-from tests.mechanisms.reference import rows
 from tests.sampling import examples
+from tests.tables import rows
 
 TABLE = rows("loader_table12")
 K = np.linspace(0.0, 1.0, 501)

@@ -5,7 +5,7 @@ from scipy.integrate import quad
 
 from optlaws import InputError, TrapeziumSubstitute, catalogue, inertial_loader, smoothstep
 from tests.internals.balancing import closed_form_Y
-from tests.mechanisms.reference import rows
+from tests.tables import rows
 
 NOMOGRAM = rows("loader_nomogram")
 

@@ -11,13 +11,13 @@ import pytest
 
 from optlaws import InputError, catalogue, smoothstep
 from tests.internals.laws import canonical, continuity_with_rest, plain
-from tests.laws.reference import rows
+from tests.tables import rows
 
 NAMES = {  # keys of the reference table that are no name of the catalogue
     "lazy_modified_trapezoid": "lazy modified trapezoid",
     "parabolic": "constant acceleration",
 }
-ROWS = rows("law_catalogue.csv")
+ROWS = rows("law_catalogue")
 CONTINUITY = {"b": 1, "c": 2, "j": 3, "j'": 4}
 HALVES = {name for name in catalogue if name.startswith("half ")}
 every_entry = pytest.mark.parametrize("name", list(catalogue))
