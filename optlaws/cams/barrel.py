@@ -107,7 +107,14 @@ class BarrelCam:
     @kept_property
     def displacement(self) -> CamMotion:
         """The displacement of the roller along the axis, by the cam's angle."""
-        return as_motion(self.motion, "length")
+        motion = self.motion
+        if isinstance(motion, Cycle | Plan) and (motion.axis == "angle" or motion.programme.advance):
+            raise InputError(
+                "motion: a table or turret that advances in each turn has several rollers on a circle; this barrel cam "
+                "has one, which slides along the shaft and comes back: end its motion with a return, or run the motion "
+                "of the table as a cycle and export it to the program that makes indexing cams"
+            )
+        return as_motion(motion, "length")
 
     @kept_property
     def radii(self) -> tuple[float, float]:

@@ -53,6 +53,13 @@ def test_derivatives_are_those_of_the_curves() -> None:
     assert np.allclose(cam.pressure_angle(inner, 1), differences, atol=1e-6)
 
 
+def test_a_table_that_advances_is_refused_by_its_own_reason() -> None:
+    for by in ("45 deg", "40 mm"):
+        indexing = Cycle([Rise(by, "120 deg"), Dwell()], speed="60 rpm", advance=by)
+        with pytest.raises(InputError, match=r"several rollers on a circle.*run the motion of the table as a cycle"):
+            BarrelCam(indexing, "60 mm", "12 mm", "8 mm")
+
+
 def test_the_pressure_angle_is_that_of_the_developed_groove() -> None:
     cam = barrel()
     assert np.allclose(np.tan(cam.pressure_angle(ANGLES)), cam.displacement(ANGLES, 1) / 0.048, rtol=1e-13)
