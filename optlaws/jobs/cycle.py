@@ -162,8 +162,8 @@ def _add_interlocks(page: Page, title: str, axes: Axes, overlap: Overlap | None)
         given = overlap.given
         page.heading("Overlap").facts(overlap.summary()).picture(
             "timing_given",
-            f"{title}: timing diagram as it was given",
-            lambda: figure_of(given.plot(what="timing"), f"{title}, as it was given"),
+            f"{title}: timing diagram before the overlap",
+            lambda: figure_of(given.plot(what="timing"), f"{title} before the overlap"),
         )
     if axes.rules:
         page.picture("timing", f"{title}: timing diagram", lambda: figure_of(axes.plot(what="timing"), title))

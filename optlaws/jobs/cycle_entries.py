@@ -11,9 +11,8 @@ from optlaws.cams import at_shaft  # noqa: F401 - by which the kind "cam" is kno
 from optlaws.cycles.axes.interlock import INTERLOCKS, Interlock
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.load import ElasticFollower
-from optlaws.cycles.specification.periods import duration_range
 from optlaws.cycles.specification.programme import period_of
-from optlaws.cycles.specification.segments import CycleSegment, Dwell, Transition
+from optlaws.cycles.specification.segments import CycleSegment, Transition
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entries_of, entry, frozen, same, thawed
 from optlaws.entries.value_types import Choice, Either, Listed, Number, ReadBy, Switch, Text, Whole
@@ -163,7 +162,7 @@ class CycleProblemFile(ProblemFile, title="a problem file"):
 
     def _check(self) -> None:
         super()._check()
-        period_of(self.speed, self.period)
+        _ = self.given_period
         names = [axis.name for axis in self.axis]
         for name in names:
             if names.count(name) > 1:
@@ -175,12 +174,23 @@ class CycleProblemFile(ProblemFile, title="a problem file"):
                 "an axis is called interlocks, which is the name of an entry of the results: give it another name"
             )
 
+    @property
+    def period_sought(self) -> bool:
+        """Whether the least period is what its overlap is for, so that none needs to be given."""
+        return self.overlap is not None and self.overlap.goal == "period"
+
+    @property
+    def given_period(self) -> float | None:
+        """The given period in seconds; None where it is sought and neither period nor speed is given."""
+        sought = self.period_sought and self.speed is None and self.period is None
+        return None if sought else period_of(self.speed, self.period)
+
     def overlap_of(self, axes: Axes, file: Path) -> Overlap | None:
         """The overlap of its axes; None where it has no such entry. An error names the file."""
         if self.overlap is None:
             return None
         with located(str(file)):
-            return axes.fastest() if self.overlap.goal == "period" else axes.gentlest(*self.overlap.of)
+            return axes.fastest() if self.period_sought else axes.gentlest(*self.overlap.of)
 
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:
@@ -196,26 +206,20 @@ def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, A
 
     spec, cycles = CycleProblemFile.read(data, file), dict[str, Cycle]()
     with located(str(file)):
+        if spec.period_sought:
+            from optlaws.jobs.first_diagram import first_diagram
+
+            axes, seconds = first_diagram(spec.axis, _planned, spec.given_period)
+            spec = replace(spec, axis=tuple(axes), speed=None, period=Exact(seconds, "s"))
         for axis in spec.axis:
             with located(f"axis {axis.name}"):
-                sought = spec.overlap is not None and spec.overlap.goal == "period"
-                timed = _waiting(axis, period_of(spec.speed, spec.period)) if sought else axis
-                cycles[axis.name] = cycle_of(timed, spec.speed, spec.period)
+                cycles[axis.name] = cycle_of(axis, spec.speed, spec.period)
         return spec, Axes(cycles, interlocks=spec.interlocks)
 
 
-def _waiting(axis: AxisEntries, period: float) -> AxisEntries:
-    """The axis whose dwells without durations only wait: where there are several, they begin with equal parts."""
-    known = sum(duration_range(each.duration, axis.name).least.at(period) for each in axis.segment)
-    free = [each for each in axis.segment if each.duration is None]
-    if len(free) < 2 or known >= period:
-        return axis
-    part = Exact((period - known) / len(free), "s")
-    waits = [isinstance(each, Dwell) and each.duration is None for each in axis.segment]
-    segments = list[Any](axis.segment)
-    for i in (i for i, waiting in enumerate(waits) if waiting):
-        segments[i] = replace(segments[i], duration=part, least=segments[i].least or "0 s")
-    return replace(axis, segment=tuple(segments))
+def _planned(axis: AxisEntries, period: Quantity) -> Cycle:
+    """The cycle of an axis whose times are planned: that of the mass where there is a follower."""
+    return cycle_of(replace(axis, follower=None), None, period)
 
 
 def cycle_of(axis: AxisEntries, speed: NumberOrQuantity | None, period: NumberOrQuantity | None) -> Cycle:

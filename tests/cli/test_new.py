@@ -2,15 +2,23 @@
 
 import re
 import shlex
+import tomllib
 from io import StringIO
 from pathlib import Path
 
 import pytest
 
-from optlaws import Drive, Motor, TranslatingRoller
+from optlaws import Drive, InputError, Motor, TranslatingRoller
 from tests.internals.cli import exit_code
 from tests.internals.entries import entries_of
-from tests.internals.jobs import STARTERS, TYPES, CamProblemFile, MachineLawsProblemFile, numbers_of
+from tests.internals.jobs import (
+    STARTERS,
+    TYPES,
+    CamProblemFile,
+    MachineLawsProblemFile,
+    numbers_of,
+    read_of_cycle_entries,
+)
 from tests.internals.mechanisms import SliderCrank
 
 PARTLY_CHECKED = 3
@@ -245,13 +253,18 @@ def test_what_binds_the_overlap_of_two_axes_is_their_interlocks(capsys: Capture)
     limited = Path("b.toml").read_text("utf-8")
     for name, limit in (("slide", "20 m/s^2"), ("table", "50 rad/s^2")):
         limited = limited.replace(f'name = "{name}"', f'name = "{name}"\nlimits = {{ acceleration = "{limit}" }}')
-    periods = set()
-    # a dwell that only waits needs no duration
-    for text in (limited, re.sub('(?m)^duration = .*\nleast = "0 s"\n', "", limited)):
-        Path("c.toml").write_text(text, "utf-8")
-        assert exit_code(["run", "c.toml", "--force"]) == 0
-        periods.add(re.search(r"least period +\| ([\d.]+)", capsys.readouterr().out)[1])  # type: ignore[index] # a row
-    assert len(periods) == 1
+    # neither a dwell that only waits needs a duration, nor a move, nor is a period needed, which is sought
+    waiting = re.sub('(?m)^duration = .*\nleast = "0 s"\n', "", limited)
+    untimed = re.sub("(?m)^duration = .*\n(?=# Without|law|least)|^speed = .*\n", "", limited)
+    short = untimed.replace("overlap =", 'period = "0.1 s"\noverlap =')
+    texts = (limited, waiting, untimed, short)
+    first, *others = (read_of_cycle_entries(tomllib.loads(text), Path("c.toml"))[1].duration for text in texts)
+    assert others == pytest.approx([first] * len(others), rel=1e-8)
+    unlimited = re.sub("(?m)^limits = .*\n", "", untimed)
+    with pytest.raises(
+        InputError, match=r"axis slide: segment 2 \(Rise\): nothing bounds its time: give it a duration"
+    ):
+        read_of_cycle_entries(tomllib.loads(unlimited), Path("c.toml"))
 
 
 def test_a_drive_begins_with_nothing_worse_than_by_modified_sine(capsys: Capture) -> None:

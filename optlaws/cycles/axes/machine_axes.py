@@ -530,7 +530,7 @@ class Overlap(AxesAnswers, Declared, title="axes that overlap"):
         """Status, objective and bound, the gain, and what leaves no room."""
         what, unit, gain = "greatest acceleration, as a share of the given one", "", "reduction by the factor"
         if self.goal == "period":
-            what, unit, gain = "least period", "s", "speed, as a multiple of the given one"
+            what, unit, gain = "least period", "s", "speed, as a multiple of that before the overlap"
         values = {
             what: (self.objective, unit),
             "proven lower bound": (self.lower_bound, unit),
