@@ -1,17 +1,19 @@
-"""Laws that are best for their cam: their limits, bounds from elsewhere, and what has no law."""
+"""Laws, offsets and sizes that are best for their cam: their limits, bounds from elsewhere, and what is refused."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from math import degrees, sqrt
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.optimize import linprog
+from scipy.optimize import linprog, minimize_scalar
 
 from optlaws import (
     CamForces,
+    CamMotion,
     Cycle,
     DiscCam,
     Dwell,
@@ -26,16 +28,27 @@ from optlaws import (
     TranslatingFlat,
     TranslatingRoller,
     best_cam,
+    best_offset,
     best_prime_circle,
+    greatest_roller,
+    least_prime_circle,
     smoothstep,
 )
-from tests.internals.cams import PRESSURE, SlidingRoller, SwingingRoller, best_laws, curvature_of, linear_limits
+from tests.cams.placed import cycle_of
+from tests.internals.cams import (
+    PRESSURE,
+    CamFollower,
+    SlidingRoller,
+    SwingingRoller,
+    best_laws,
+    curvature_of,
+    linear_limits,
+)
 from tests.internals.formulas import NUMPY, evaluate
 from tests.internals.motion import Piece
 from tests.internals.numerics import Jet
 
 Array = NDArray[np.float64]
-
 PRESS = Cycle([Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()], period="0.3 s")
 VALVE = Cycle([Rise("10 mm", "70 deg"), Return("10 mm", "70 deg"), Dwell()], speed="3000 rpm")
 ROCKER = Cycle([Rise("25 deg", "110 deg"), Dwell("60 deg"), Return("25 deg", "130 deg"), Dwell()], speed="120 rpm")
@@ -293,3 +306,157 @@ def test_the_least_prime_circle_keeps_a_radius_of_curvature_beside_the_pressure_
     assert both.lower_bound == wide.lower_bound == pytest.approx(one.lower_bound, rel=1e-9)
     assert wide.least.radius > 1.05 * wide.lower_bound
     assert wide.least.cam.extremes.least_convex_radius.value >= 0.045 * (1.0 - 1e-9)
+
+
+# --- the best offset of a slide ---
+
+
+ROLLER = TranslatingRoller("12 mm", offset="5 mm")
+MOTIONS: dict[str, Cycle | CamMotion] = {
+    "up and down": cycle_of("30 mm"),
+    "raised": Cycle([Rise("20 mm", "60 deg", law="345"), Return(law="modified sine")], start="7 mm", period="1 s"),
+    "a return": CamMotion.of_law("cycloidal", "40 mm", "120 deg", "return"),
+    "a rise, parabolic": CamMotion.of_law("parabolic", "40 mm", "90 deg"),
+}
+
+
+@pytest.mark.parametrize("turning", ["counterclockwise", "clockwise"])
+@pytest.mark.parametrize("name", MOTIONS)
+def test_no_offset_has_a_smaller_greatest_pressure_angle(name: str, turning: str) -> None:
+    motion = MOTIONS[name]
+    best = best_offset(motion, "60 mm", ROLLER, turning=turning)  # type: ignore[arg-type]
+    course = best.cam.displacement
+    angles = np.linspace(*course.interval, 40001)
+    s, slope = np.asarray(course(angles)) - course.range[0], np.asarray(course(angles, 1))
+    sign = 1.0 if turning == "counterclockwise" else -1.0
+
+    def greatest(offset: float) -> float:
+        return float(np.abs((slope - sign * offset) / (sqrt(0.06**2 - offset**2) + s)).max())
+
+    brute = minimize_scalar(greatest, bounds=(-0.0599, 0.0599), method="bounded", options={"xatol": 1e-12})
+    assert best.proven
+    assert best.offset == pytest.approx(brute.x, abs=1e-8)
+    assert np.tan(best.pressure_angle) == pytest.approx(brute.fun, rel=1e-7)
+    assert np.tan(best.lower_bound) <= brute.fun
+    assert best.pressure_angle - best.lower_bound < 3e-8 * best.pressure_angle
+    least, most = best.cam.extremes.pressure_angles
+    assert most.value == pytest.approx(-least.value, rel=1e-9)
+    at = np.degrees(np.abs(best.cam.pressure_angle(np.array(best.angles))))
+    assert at == pytest.approx(degrees(best.pressure_angle), rel=1e-8)
+
+
+def test_a_follower_that_rests_has_none() -> None:
+    best = best_offset(Cycle([Rise("1e-9 mm", "90 deg"), Return()], period="1 s"), "60 mm", ROLLER)
+    assert abs(best.offset) < 1e-12
+    assert best.lower_bound <= best.pressure_angle < 1e-10
+
+
+@pytest.mark.parametrize("unit", [1e-12, 1e9])
+def test_other_units_of_lengths(unit: float) -> None:
+    def of(size: float) -> tuple[float, float, bool]:
+        moves = [Rise(f"{30 * size!r} mm", "120 deg", law="345"), Dwell("20 deg"), Return(duration="80 deg", law="345")]
+        cycle = Cycle([*moves, Dwell()], period="1 s")
+        best = best_offset(cycle, f"{61 * size!r} mm", TranslatingRoller(f"{12 * size!r} mm"))
+        return best.offset / size, best.pressure_angle, best.proven
+
+    assert of(unit) == pytest.approx(of(1.0), rel=1e-9)
+
+
+def test_wrong_followers_say_why() -> None:
+    with pytest.raises(InputError, match="must be a TranslatingRoller"):
+        best_offset(MOTIONS["up and down"], "60 mm", OscillatingRoller("12 mm", arm="90 mm", pivot_distance="120 mm"))  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="prime_radius"):
+        best_offset(MOTIONS["up and down"], "-60 mm", ROLLER)
+    with pytest.raises(InputError, match="not less than that of the prime circle"):
+        best_offset(MOTIONS["up and down"], "9 mm", ROLLER)
+    assert DiscCam(MOTIONS["up and down"], "60 mm", ROLLER).contact.roller == pytest.approx(0.012)
+
+
+# --- least prime circles and greatest rollers ---
+
+
+ANGLES = np.linspace(0.0, 2.0 * np.pi, 2001)
+CASES: list[tuple[CamFollower, str, float | None, float | None]] = [
+    (TranslatingRoller("12 mm"), "30 mm", 30.0, None),
+    (TranslatingRoller("12 mm", offset="9 mm"), "30 mm", 30.0, 5.0),
+    (TranslatingRoller("4 mm"), "60 mm", 70.0, 9.0),
+    (TranslatingFlat(), "12 mm", None, 5.0),
+    (OscillatingRoller("12 mm", "90 mm", "120 mm"), "20 deg", 35.0, 5.0),
+    (OscillatingFlat("150 mm", "6 mm"), "8 deg", None, 5.0),
+]
+
+
+def keeps(cam: DiscCam, pressure: float | None, radius: float | None) -> bool:
+    """Whether a cam keeps its limits at 2,001 places, by its curves alone."""
+    if pressure is not None and np.degrees(np.abs(cam.pressure_angle(ANGLES))).max() > pressure:
+        return False
+    curvature = cam.pitch_curve.curvature(ANGLES)
+    sharpest = 1.0 / curvature[curvature > 0].max() - cam.contact.roller
+    return radius is None or bool(1e3 * sharpest >= radius and curvature.min() > -np.inf)
+
+
+@pytest.mark.sample(3)
+@pytest.mark.parametrize(("follower", "stroke", "pressure", "radius"), CASES)
+def test_the_least_prime_circle_is_that_of_a_bisection(
+    follower: CamFollower, stroke: str, pressure: float | None, radius: float | None
+) -> None:
+    cycle = cycle_of(stroke)
+    limits: dict[str, Any] = {} if pressure is None else {"pressure_angle": f"{pressure} deg"}
+    limits |= {} if radius is None else {"radius_of_curvature": f"{radius} mm"}
+    least = least_prime_circle(cycle, follower, **limits)
+    assert least.proven
+    assert least.radius * (1 - 2e-8) < least.too_small < least.radius
+    low, high = 0.9 * least.radius, 1.1 * least.radius
+    for _ in range(18):
+        middle = 0.5 * (low + high)
+        fine = keeps(DiscCam(cycle, f"{middle!r} m", follower), pressure, radius)
+        low, high = (low, middle) if fine else (middle, high)
+    assert high == pytest.approx(least.radius, rel=2e-5)
+    smaller = DiscCam(cycle, f"{least.too_small!r} m", follower).extremes
+    assert (pressure is not None and np.degrees(smaller.greatest_pressure_angle.low) > pressure) or (
+        radius is not None and 1e3 * smaller.least_convex_radius.high < radius
+    )
+    extremes = least.cam.extremes
+    assert pressure is None or np.degrees(extremes.greatest_pressure_angle.high) <= pressure
+    assert radius is None or 1e3 * extremes.least_convex_radius.low >= radius
+
+
+def test_a_flat_face_has_its_closed_form() -> None:
+    # rho = r0 + s + s'' >= 5 mm
+    cycle = cycle_of("12 mm")
+    least = least_prime_circle(cycle, TranslatingFlat(), radius_of_curvature="5 mm")
+    motion = least.cam.displacement
+    lowest = min(float((motion(x) + motion(x, 2)).min()) for x in (np.linspace(0.0, 2 * np.pi, 400_001),))
+    assert least.radius == pytest.approx(0.005 - lowest, rel=1e-9)
+
+
+def test_a_mechanism_may_be_all_that_bounds_it() -> None:
+    least = least_prime_circle(cycle_of("5 mm"), TranslatingRoller("12 mm"), pressure_angle="60 deg")
+    assert least.limit == "mechanism"
+    assert least.radius == pytest.approx(0.012, rel=1e-8)
+
+
+@pytest.mark.parametrize("offset", ["0 mm", "9 mm", "-9 mm"])
+def test_the_greatest_roller_keeps_the_radius_and_a_greater_one_breaks_it(offset: str) -> None:
+    cam = DiscCam(cycle_of("60 mm"), "40 mm", TranslatingRoller("2 mm", offset))
+    found = greatest_roller(cam, radius_of_curvature="4 mm")
+    assert 0.0 < found.too_large - found.radius < 1e-9
+    rollers = [TranslatingRoller(f"{found.radius + step!r} m", offset) for step in (-1e-8, 1e-8)]
+    margins = [DiscCam(cycle_of("60 mm"), "40 mm", roller).extremes.least_convex_radius for roller in rollers]
+    assert margins[0].low >= 0.004 > margins[1].high
+
+
+def test_limits_that_are_missing_or_cannot_be_kept_say_the_remedy() -> None:
+    cycle, arm = cycle_of("30 mm"), OscillatingRoller("12 mm", "90 mm", "120 mm")
+    with pytest.raises(InputError, match="pressure_angle='30 deg'"):
+        least_prime_circle(cycle, TranslatingRoller("12 mm"))
+    with pytest.raises(InputError, match="below 90 deg"):
+        least_prime_circle(cycle, TranslatingRoller("12 mm"), pressure_angle="90 deg")
+    with pytest.raises(InputError, match="at least 0"):
+        least_prime_circle(cycle, TranslatingFlat(), radius_of_curvature="-1 mm")
+    with pytest.raises(InfeasibleProblem, match=r"no prime circle keeps a pressure angle of 5 deg.*spread the motion"):
+        least_prime_circle(cycle_of("20 deg"), arm, pressure_angle="5 deg")
+    with pytest.raises(InputError, match="a flat face has no roller"):
+        greatest_roller(DiscCam(cycle, "60 mm", TranslatingFlat()))
+    with pytest.raises(InputError, match="make the prime circle larger"):
+        greatest_roller(DiscCam(cycle, "60 mm", TranslatingRoller("2 mm")), radius_of_curvature="90 mm")

@@ -5,7 +5,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from optlaws import law_through, split_table
-from tests.cycles.optimisation.test_least_rms import between_rests, motions, rms, spline
+from tests.cycles.optimisation.test_joined import between_rests, motions, rms, spline
 from tests.external.published import REFERENCE, numbers
 
 #: of the published curve of least jerk, for each axis

@@ -63,7 +63,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "optlaws.synthesis.spaces.space": ("tests/synthesis/spaces/test_space.py",),
     "optlaws.cycles.optimisation.optimal": (
         "tests/cycles/optimisation/test_optimal.py",
-        "tests/cycles/optimisation/test_least_rms.py",
+        "tests/cycles/optimisation/test_joined.py",
         "tests/cycles/optimisation/test_shared_limits.py",
     ),
     "optlaws.cycles.optimisation.shared_limits": ("tests/cycles/optimisation/test_shared_limits.py",),
