@@ -2,6 +2,9 @@
 
 A law with B = 1e6 has coordinates and peaks of that size, and a power of its square. Divided by these the program is
 that of a law of stroke 1e-6 with B = 1, and its multipliers are the same but for what the rows were divided by.
+
+Of a very long move the shares of the limits have weights as 4e-10 J. What such a weight adds to an optimality condition
+is less than what a solver leaves there: the constant is then in units in which its weight is near 1.
 """
 
 from __future__ import annotations
@@ -10,14 +13,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from optlaws.numbers import Array
+from optlaws.numbers import Array, power_of_two
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily
-from optlaws.synthesis.families.family import ConstraintFamily, ProductFamily, Program
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, ProductFamily, Program
 
 #: smaller laws are solved as they are
 _GREAT = 100.0
+#: weights of constants that are greater are solved as they are
+_LIGHT = 1e-5
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,23 +73,44 @@ def units_of(program: Program) -> ProgramUnits | None:
     """
     limits = [-family.bound for family in program.families if family.domain[0] == family.domain[1]]
     size = max([float(np.abs(program.right).max(initial=0.0)), *limits])
-    if size <= _GREAT:
+    size, constants = size if size > _GREAT else 1.0, _units_of_constants(program)
+    if size == constants.max() == 1.0:
         return None
     powers = np.zeros(program.size, dtype=np.bool_)
     for family in program.families:
         if isinstance(family, ProductFamily):
             powers |= family.slack != 0.0
-    variables = np.where(powers, size * size, size)
-    rows = np.array([_row_unit(member, size) for member in program.families])
+    variables = np.where(powers, size * size, size) * constants
+    units = [size * _unit_of_constant(family, constants) for family in program.families]
     cost = program.objective * variables
     objective = float(np.abs(cost).max()) or 1.0
     scaled = Program(
-        tuple(family.in_units(variables, size) for family in program.families),
+        tuple(family.in_units(variables, unit) for family, unit in zip(program.families, units, strict=True)),
         program.equalities * variables / size,
         program.right / size,
         cost / objective,
     )
+    rows = np.array([_row_unit(family, unit) for family, unit in zip(program.families, units, strict=True)])
     return ProgramUnits(scaled, variables, rows, size, objective)
+
+
+def _units_of_constants(program: Program) -> Array:
+    """A power of two for each variable: above 1 for constants of linear families that have light weights alone."""
+    weights = np.abs(program.objective)
+    for family in program.families:
+        if isinstance(family, LinearFamily) and family.domain[0] == family.domain[1]:
+            weights = np.maximum(weights, np.abs(family.rows(np.array(family.domain[:1]), np.ones(1))[0][0]))
+    units = np.ones(program.size)
+    for family in program.families:
+        light = (family.slack > 0.0) & (weights > 0.0) & (weights < _LIGHT)
+        if isinstance(family, LinearFamily):
+            units[light] = [power_of_two(1.0 / weight) for weight in weights[light].tolist()]
+    return units
+
+
+def _unit_of_constant(family: ConstraintFamily, constants: Array) -> float:
+    """The unit of the constant that a linear family is bounded by."""
+    return float(constants[family.slack > 0.0].max(initial=1.0)) if isinstance(family, LinearFamily) else 1.0
 
 
 def _row_unit(family: ConstraintFamily, size: float) -> float:

@@ -212,9 +212,9 @@ def test_wrong_inputs_are_named(changes: dict[str, Any], named: str) -> None:
         fastest(ORDER_3, **({"stroke": "100 mm", "limits": LIMITS} | changes))
 
 
-@pytest.mark.parametrize("stroke", [1e3, 51002.562712464198, pytest.param(3e5, marks=pytest.mark.long)])
+@pytest.mark.parametrize("stroke", [1e3, 51002.562712464198, 70656.8, pytest.param(3e6, marks=pytest.mark.long)])
 def test_pieces_of_a_very_long_move_reach_the_limit(stroke: float) -> None:
-    """Ramps that are a hundred-thousandth of the move: 2 sqrt(v/j) + h/v."""
+    """Ramps that are a millionth of the move: 2 sqrt(v/j) + h/v."""
     limits = {"velocity": "1 m/s", "acceleration": "2.718257726 m/s^2", "jerk": "1 m/s^3"}
     smooth = fastest(ORDER_3, stroke=f"{stroke!r} m", limits=limits)
     pieces = Problem(order=3, basis=Pieces(smooth.limit_breaks, degree=3, continuity=2), symmetric=False)
