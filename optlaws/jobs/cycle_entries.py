@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -207,19 +207,22 @@ def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, A
     spec, cycles = CycleProblemFile.read(data, file), dict[str, Cycle]()
     with located(str(file)):
         if spec.period_sought:
-            from optlaws.jobs.first_diagram import first_diagram
+            from optlaws.cycles.axes.first_diagram import first_diagram
 
-            axes, seconds = first_diagram(spec.axis, _planned, spec.given_period)
-            spec = replace(spec, axis=tuple(axes), speed=None, period=Exact(seconds, "s"))
+            axes = {axis.name: axis for axis in spec.axis}
+
+            def planned(name: str, segments: Sequence[CycleSegment], period: Quantity) -> Cycle:
+                # times are those of the mass where there is a follower
+                return cycle_of(replace(axes[name], segment=tuple(segments), follower=None), None, period)
+
+            moves = {name: axis.segment for name, axis in axes.items()}
+            timed, seconds = first_diagram(moves, planned, spec.given_period)
+            begun = tuple(replace(axis, segment=tuple(timed[name])) for name, axis in axes.items())
+            spec = replace(spec, axis=begun, speed=None, period=Exact(seconds, "s"))
         for axis in spec.axis:
             with located(f"axis {axis.name}"):
                 cycles[axis.name] = cycle_of(axis, spec.speed, spec.period)
         return spec, Axes(cycles, interlocks=spec.interlocks)
-
-
-def _planned(axis: AxisEntries, period: Quantity) -> Cycle:
-    """The cycle of an axis whose times are planned: that of the mass where there is a follower."""
-    return cycle_of(replace(axis, follower=None), None, period)
 
 
 def cycle_of(axis: AxisEntries, speed: NumberOrQuantity | None, period: NumberOrQuantity | None) -> Cycle:

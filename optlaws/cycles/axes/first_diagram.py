@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any, TypeAlias
 
 from optlaws.cycles.axes.overlapping import planned
 from optlaws.cycles.cycle import Cycle
@@ -14,16 +14,15 @@ from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.motion.quantities import Exact
 from optlaws.tolerances import CLOSURE
 
-if TYPE_CHECKING:
-    from optlaws.jobs.cycle_entries import AxisEntries
+_Segments: TypeAlias = Sequence[CycleSegment]
 
 _ROOM = 2.0  # of the period beside the one that the slowest axis needs by itself
 
 
 def first_diagram(
-    axes: Sequence[AxisEntries], cycle_of: Callable[[AxisEntries, Exact], Cycle], period: float | None
-) -> tuple[list[AxisEntries], float]:
-    """The axes with a duration of every segment, and the period: the given one, or a longer one where that is short.
+    axes: Mapping[str, _Segments], cycle_of: Callable[[str, _Segments, Exact], Cycle], period: float | None
+) -> tuple[dict[str, _Segments], float]:
+    """The segments of axes, each with a duration, and the period: the given one, or a longer one where that is short.
 
     A move without a duration takes its least time within its limits; dwells share what is left, and a dwell that is
     longer than its duration keeps this as its least one.
@@ -35,44 +34,50 @@ def first_diagram(
     InfeasibleProblem
         If the angles of an axis leave its other segments no time.
     """
-    timed = list[_Timed]()
-    for axis in axes:
-        with located(f"axis {axis.name}"):
-            timed.append(_Timed.of(axis, cycle_of, period))
-    longest = max(each.period for each in timed)
+    timed = dict[str, _Timed]()
+    for name, segments in axes.items():
+        with located(f"axis {name}"):
+            timed[name] = _Timed.of(name, segments, cycle_of, period)
+    longest = max(each.period for each in timed.values())
     if period is None or period < longest * (1.0 + CLOSURE):
         period = _ROOM * longest
-    return [each.at(period) for each in timed], period
+    return {name: each.at(period) for name, each in timed.items()}, period
 
 
 @dataclass(frozen=True)
 class _Timed:
-    """An axis with the least duration of each segment, and whether it may be longer in the diagram."""
+    """The segments of an axis with the least duration of each segment, and whether it may be longer in the diagram."""
 
-    axis: AxisEntries
+    segments: _Segments
     least: Sequence[Extent]
     longer: Sequence[bool]
 
     @classmethod
-    def of(cls, axis: AxisEntries, cycle_of: Callable[[AxisEntries, Exact], Cycle], period: float | None) -> _Timed:
-        ranges = [duration_range(each.duration, axis.name) for each in axis.segment]
+    def of(
+        cls,
+        name: str,
+        segments: _Segments,
+        cycle_of: Callable[[str, _Segments, Exact], Cycle],
+        period: float | None,
+    ) -> _Timed:
+        ranges = [duration_range(each.duration) for each in segments]
         free = [not each.fixed for each in ranges]
-        least = [_least(each, given.least) for each, given in zip(axis.segment, ranges, strict=True)]
-        sought = [i for i, each in enumerate(axis.segment) if free[i] and not isinstance(each, Dwell)]
+        least = [_least(each, given.least) for each, given in zip(segments, ranges, strict=True)]
+        sought = [i for i, each in enumerate(segments) if free[i] and not isinstance(each, Dwell)]
         if sought:
-            known = _Timed(axis, least, free)
+            known = _Timed(segments, least, free)
             trial = period if period is not None and period > known.period else _ROOM * known.period or 1.0
-            plan = planned(axis.name, cycle_of(known.at(trial), Exact(trial, "s")), "fastest", None)
+            plan = planned(name, cycle_of(name, known.at(trial), Exact(trial, "s")), "fastest", None)
             for i in sought:
                 if period is None and not plan[i].binds:
                     raise InputError(
-                        f"segment {i + 1} ({axis.segment[i].label}): nothing bounds its time: give it a duration, or "
+                        f"segment {i + 1} ({segments[i].label}): nothing bounds its time: give it a duration, or "
                         'limits, such as limits = { acceleration = "20 m/s^2" }'
                     )
                 least[i] = max(least[i], plan[i].least, key=lambda extent: extent.at(trial))
-        dwells = [isinstance(each, Dwell) for each in axis.segment]
+        dwells = [isinstance(each, Dwell) for each in segments]
         waits = [dwell and some for dwell, some in zip(dwells, free, strict=True)]
-        return cls(axis, least, next((places for places in (waits, free, dwells) if any(places)), free))
+        return cls(segments, least, next((places for places in (waits, free, dwells) if any(places)), free))
 
     @property
     def period(self) -> float:
@@ -82,16 +87,16 @@ class _Timed:
             raise InfeasibleProblem("the angles of its segments leave the others no time: shorten one of them")
         return seconds / (1.0 - shares) if seconds else 0.0
 
-    def at(self, period: float) -> AxisEntries:
-        """The axis in a period, of which those segments that may be longer share what is left in equal parts."""
+    def at(self, period: float) -> _Segments:
+        """The segments in a period, of which those that may be longer share what is left in equal parts."""
         part = (period - sum(each.at(period) for each in self.least)) / max(sum(self.longer), 1)
-        segments: list[Any] = list(self.axis.segment)
+        segments: list[Any] = list(self.segments)
         for i, (segment, least, longer) in enumerate(zip(segments, self.least, self.longer, strict=True)):
             if longer or segment.duration is None:
                 known = {"least": segment.least or segment.duration or "0 s"} if isinstance(segment, Dwell) else {}
                 duration = Exact(least.at(period) + longer * part, "s")
                 segments[i] = replace(segment, duration=duration, **known)
-        return replace(self.axis, segment=tuple(segments))
+        return tuple(segments)
 
 
 def _least(segment: CycleSegment, given: Extent) -> Extent:
