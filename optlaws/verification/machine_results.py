@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -44,7 +44,7 @@ def plan(data: Data) -> Verification:
 
 def cam(data: Data) -> Verification:
     """Check the solutions of the laws of a cam, each by itself, and the numbers of the cam that has these laws."""
-    known, claims = _solutions(data)(), list[Claim]()
+    known, claims, of_bounds = _solutions(data)(), list[Claim](), list[Claim]()
     try:
         result = imported("optlaws.jobs.cam").stored(data)
         stated = {
@@ -57,10 +57,10 @@ def cam(data: Data) -> Verification:
             if name == "laws" or result.minimises_over_cycle:
                 weaker = "" if result.bounds_hold else _CURVED if result.minimises_over_cycle else _FURTHER
                 proven = _objective_of_laws(result.plan, list(known.values()), stated.get(name) or {}, weaker)
-                claims += [replace(claim, name=f"{name}.{claim.name}") for claim in proven]
-        claims += _numbers(stated, result.data)
+                of_bounds += [replace(claim, name=f"{name}.{claim.name}") for claim in proven]
+        claims += _numbers(stated, result.data, of_bounds)
     except OptlawsError as error:
-        claims.append(Claim("the cam", proven=False, detail=str(error)))
+        claims = [_unread("the cam", error, known)]
     every = [claim for place, each in known.items() for claim in every_claim(each, f"{place}: ")]
     return with_claims(Verification(), [*every, *claims])
 
@@ -96,21 +96,29 @@ def of_cycle(
     read: Callable[[], Any], parts: Callable[[Any], Mapping[str, Verification]], stated: Data | None = None
 ) -> Verification:
     """Check the parts of a plan, each by itself, that its laws are those of its cycle, and what is stated of them."""
-    solved, numbers = None, list[Claim]()
+    solved, unread, wrong, detail, numbers = None, None, "", "", list[Claim]()
     try:
         solved = read()
         wrong = solved.solve().contradiction()
         detail = wrong or f"they meet its joints and keep its limits, in doubles; status {solved.status.value}"
     except OptlawsError as error:
-        wrong = detail = str(error)
+        unread = error
     known = parts(solved)
     if stated and solved is not None:
         weaker = "" if solved.of_its_problems() else _FURTHER
         proven = list(_objective_of_laws(solved, list(known.values()), stated, weaker))
-        numbers = [*proven, *_numbers(stated, solved.report().stored, {claim.name for claim in proven})]
+        numbers = list(_numbers(stated, solved.report().stored, proven))
     every = [claim for place, each in known.items() for claim in every_claim(each, f"{place}: ")]
-    claim = Claim("the laws of the cycle", proven=False, detail=detail, checked=bool(wrong))
+    name = "the laws of the cycle"
+    claim = _unread(name, unread, known) if unread else Claim(name, proven=False, detail=detail, checked=bool(wrong))
     return with_claims(Verification(), [*every, claim, *numbers])
+
+
+def _unread(name: str, error: OptlawsError, known: Mapping[str, Verification]) -> Claim:
+    """The claim of what cannot be read: not checked where that is because of a solution which is not proven."""
+    false = [place for place, each in known.items() if not each.proven]
+    detail = f"not compared before {', '.join(false)} can be proven" if false else str(error)
+    return Claim(name, proven=False, detail=detail, checked=not false)
 
 
 _SHARED = "which laws that share a limit or were selected among equals do not prove alone"
@@ -234,14 +242,17 @@ def _at_rest(piece: Any, objective: Any) -> tuple[Fraction, ...] | None:
     return resting, resting
 
 
-def _numbers(stated: Data, known: Data, apart: Container[str] = ()) -> Iterator[Claim]:
+def _numbers(stated: Data, known: Data, apart: Sequence[Claim] = ()) -> Iterator[Claim]:
     """The claims of numbers beside laws: those that differ from what the laws have, and what is only computed again.
 
-    What has a claim of its own stands `apart`.
+    A number that has a claim of its own, of those `apart`, has no second one.
     """
-    wrong = list(differences(*_by_name(stated, known), ""))
-    yield from wrong
-    names = ", ".join(name for name, value in stated.items() if value is not None and name not in apart)
+    wrong = {claim.name: claim for claim in differences(*_by_name(stated, known), "")}
+    refuted = {claim.name for claim in apart if claim.checked and not claim.proven}
+    yield from (claim for claim in apart if claim.name in refuted or claim.name not in wrong)
+    yield from (claim for name, claim in wrong.items() if name not in refuted)
+    named = {claim.name for claim in apart}
+    names = ", ".join(name for name, value in stated.items() if value is not None and name not in named)
     if names and not wrong:
         yield Claim(
             "the numbers", proven=False, detail=f"computed again in doubles, they agree: {names}", checked=False

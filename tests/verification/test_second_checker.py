@@ -391,6 +391,26 @@ def test_a_bound_above_the_objective_is_false_at_sight(name: str, tmp_path: Path
         assert wrong == [f"the file: {name.replace('_', ' ')}"]
 
 
+@pytest.mark.parametrize(
+    ("file", "entry", "stated"),
+    [
+        ("cycle_press/cycle.json", ("axes", "slide"), ()),
+        ("cycle_press/cycle.json", ("axes", "slide"), ("solutions", 0)),
+        ("cam_press/cam.json", (), ("laws",)),
+        ("fastest_pick/fastest.json", ("table", "fronts", 0, "fastest", "solution"), ()),
+    ],
+)
+def test_a_bound_above_what_it_is_a_bound_of_is_not_proven_and_said_once(
+    file: str, entry: tuple[str | int, ...], stated: tuple[str | int, ...], tmp_path: Path
+) -> None:
+    data = value_at(json.loads((ROOT / "results" / file).read_text("utf-8")), entry)
+    wrong = changed(data, (*stated, "lower_bound"), 1.5 * value_at(data, stated)["objective"])
+    by_second = [claim["path"] for claim in checked(wrong, tmp_path) if claim["verdict"] == "not proven"]
+    assert len(by_second) == 1
+    assert by_second[0].endswith("lower bound")
+    assert len([claim for claim in verify(wrong).claims if not claim.proven]) == 1
+
+
 @pytest.mark.parametrize("share", [0.05, 0.5, 0.95])
 def test_a_bound_above_its_certificate_and_below_the_objective_is_not_proven(share: float, tmp_path: Path) -> None:
     data = synthesize(POWER).to_dict()

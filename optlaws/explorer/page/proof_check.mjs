@@ -5,7 +5,7 @@
 import { ONE, Rational, Unknown, ZERO, exact, greatest, least, quotientRounded, solvedWhole, sum, whole, wholeNumbers } from "./proof_numbers.mjs";
 import { MEANS, PEAKS, ROOT, Rows, neverNegative, parsed, rangeOf, scaleOf } from "./proof_rows.mjs";
 import { boxesHold } from "./proof_boxes.mjs";
-import { lawChecked, sameData, solutionChecked } from "./proof_solution.mjs";
+import { boundsAbove, lawChecked, sameData, solutionChecked } from "./proof_solution.mjs";
 import { endVelocities, stroke } from "./proof_laws.mjs";
 
 /* A stated bound is a double: by how much of itself it may be above the proven one. */
@@ -374,7 +374,7 @@ function partsChecked(data, path) {
 
 /* The entries that a kind of object does not have, checked by themselves, and which of them this program does not know. */
 function othersChecked(data, where, known, inside, isKnown = false) {
-  const results = [];
+  const results = known.includes("lower_bound") ? [] : boundsAbove(data, where);
   const unknown = [];
   for (const [key, value] of Object.entries(data)) {
     if (isEmpty(value) || SILENT.includes(key) || known.includes(key)) continue;

@@ -19,6 +19,18 @@ const NO_OBJECTIVE = exact(1e-6);
 /* By how much of its size a law may differ from its Z. */
 const ROUNDED_SERIES = exact(2 ** -44);
 
+/* Pairs of numbers, of which the first is proven to be at most the second; what is less is 0 but for rounding. */
+const ORDERED = [["lower_bound", "objective"], ["best_possible", "objective"], ["lower_bound", "value"], ["best_possible", "duration"]];
+const NOTHING = exact(1e-12);
+
+/* Bounds that are stated to be above what they are bounds of, whatever that is. */
+export function boundsAbove(data, path) {
+  const isAbove = (low, high) => typeof low === "number" && typeof high === "number" && exact(high).plus(greatest(STATED.times(exact(high).magnitude()), NOTHING)).below(exact(low));
+  return ORDERED.filter(([low, high]) => isAbove(data[low], data[high])).map(([low, high]) => (
+    { path: `${path}: ${low.replace("_", " ")}`, verdict: "not proven", detail: `${data[low]} is stated, above the ${high}, ${data[high]}` }
+  ));
+}
+
 /* What a solution states beside its proofs, held against its law and against what the proofs prove. */
 export function solutionChecked(data, path, proven) {
   const claims = [];
@@ -84,7 +96,8 @@ export function solutionChecked(data, path, proven) {
     if (data.status === "optimal") gapClaims(claim, claims, path, "status", data.status, room(ZERO), shown);
     else if (data.status) claim("status", ["local", "inaccurate"].includes(data.status) && !nearly(gap), `${data.status} is stated, ${shown}`);
   });
-  return claims;
+  const above = highest ? [] : boundsAbove(data, path);
+  return [...claims.filter(({ path: place }) => !above.some((wrong) => wrong.path === place)), ...above];
 }
 
 /* A gap that is greater may be that of a proof which this program does not know. */
