@@ -40,9 +40,9 @@ export function group(title, ...children) {
   return html("fieldset", {}, html("legend", { text: title }), ...children);
 }
 
-/** Words of a view explained, closed at first; with the figure's names as keys. */
+/** What a view shows explained, closed at first: pairs of a name, or of its look, and a text. */
 export function explained(words) {
-  return html("details", { class: "explained" }, html("summary", { text: "What is shown" }), html("dl", {}, ...Object.entries(words).flatMap(([name, text]) => [html("dt", { text: name }), html("dd", { text })])));
+  return html("details", { class: "explained" }, html("summary", { text: "What is shown" }), html("dl", {}, ...words.flatMap(([name, text]) => [html("dt", {}, name), html("dd", { text })])));
 }
 
 /** Buttons of which one is chosen; arrow keys go from one to the next. Returns a function that shows the chosen one. */

@@ -91,15 +91,6 @@ function painted() {
   });
 }
 
-/** The element of a view; those that the page's text has none for are made. */
-function rootOf(name) {
-  const root = document.getElementById(`${name}-view`);
-  if (root) return root;
-  const made = html("main", { id: `${name}-view`, class: "view", hidden: true });
-  document.querySelector("main:last-of-type").after(made);
-  return made;
-}
-
 async function open() {
   const { view } = read(location.hash);
   if (Object.hasOwn(VIEWS, view)) VIEWS[view].load().catch(() => {}); // on its way while the start is
@@ -108,6 +99,8 @@ async function open() {
   document.body.append(html("datalist", { id: "names" }, ...names.map((name) => html("option", { value: name }))));
   const first = begun(location.hash, state);
   const views = {};
+  const roots = Object.fromEntries(Object.keys(VIEWS).map((name) => [name, html("main", { id: `${name}-view`, class: "view", hidden: true })]));
+  document.getElementById("notice").after(...Object.values(roots));
   const study = new Study(first, render, kept, examples);
   /** A part of the study that is not there yet begins with an example for the view that shows it. */
   const begin = (state, view) => {
@@ -142,20 +135,20 @@ async function open() {
       delete views[name];
       throw error;
     });
-    views[name] = new View(rootOf(name), study, start, painted);
+    views[name] = new View(roots[name], study, start, painted);
     render(study.state); // its questions begin before this work ends
   }
 
   function render(now) {
     const name = named(now);
-    for (const other of Object.keys(VIEWS)) rootOf(other).hidden = other !== name;
+    for (const [other, root] of Object.entries(roots)) root.hidden = other !== name;
     choose(name);
     // a law that is taken to another view takes the reader with it
     if (document.activeElement.closest(".view[hidden]")) document.querySelector(`#views [data-key=${name}]`).focus({ preventScroll: true });
     const view = views[name];
     if (VIEWS[name].part === "machine") {
       begin(now, name);
-      forms.show(now, name, rootOf(name), view?.form);
+      forms.show(now, name, roots[name], view?.form);
     }
     if (view) {
       begin(now, name);

@@ -4,6 +4,7 @@
 import { Chart, spanOf } from "../chart.js";
 import { group } from "../fields.js";
 import { Latest } from "../latest.js";
+import { column, growing, laidOut, panel, part, picture, status } from "../layout.js";
 import { Form } from "../form.js";
 import { Panels } from "../panels.js";
 import { html, renew } from "../svg.js";
@@ -42,7 +43,11 @@ export class View {
   constructor(root, study) {
     this.#study = study;
     this.form = this.#build();
-    this.#at = layout(root);
+    this.#at = laidOut(root,
+      column("advice-middle", "Laws side by side", status("advice-words"), panel("advice-table")),
+      column("advice-side", "The laws in a picture, and the recommended one beside the usual one", growing(picture("advice-chart")),
+        growing(html("p", { id: "advice-names", class: "quiet" }), part("advice-curves"))),
+    );
     this.#chart = new Chart(this.#at.chart, () => {});
     this.#curves = new Panels(this.#at.curves);
     const failed = (error, question) => this.#failed(error, question);
@@ -234,21 +239,4 @@ function placed(points, range, log) {
     kept.push({ box, at: [point.x, point.y], text, name: point.of ? "chosen" : "", anchor: end ? "end" : "start", up: point.of ? 9 : 6 });
   }
   return kept;
-}
-
-function layout(root) {
-  const panel = (id, attributes = {}) => html("div", { class: "panel", id, ...attributes });
-  const at = {
-    words: panel("advice-words", { role: "status", "aria-live": "polite" }),
-    table: panel("advice-table"),
-    chart: html("div", { id: "advice-chart", class: "picture" }),
-    names: html("p", { id: "advice-names", class: "quiet" }),
-    curves: html("div", { id: "advice-curves" }),
-  };
-  root.append(
-    html("section", { id: "advice-middle", "aria-label": "Laws side by side" }, at.words, at.table),
-    html("section", { id: "advice-side", "aria-label": "The laws in a picture, and the recommended one beside the usual one" },
-      html("div", { class: "panel" }, at.chart), html("div", { class: "panel", id: "advice-motion" }, at.names, at.curves)),
-  );
-  return at;
 }

@@ -3,6 +3,7 @@
 import { Cursor } from "../cursor.js";
 import { group } from "../fields.js";
 import { Latest } from "../latest.js";
+import { column, growing, head, laidOut, panel, part, picture, status } from "../layout.js";
 import { Panels } from "../panels.js";
 import { Positions } from "../positions.js";
 import { table } from "../report_table.js";
@@ -26,6 +27,7 @@ export class View {
   #rooms;
   #cursor = new Cursor();
   #parts;
+  #gained = html("div", { role: "status", "aria-live": "polite" });
   #answers;
   #clearances;
   #together;
@@ -36,20 +38,14 @@ export class View {
 
   constructor(root, study) {
     this.#study = study;
-    const panel = (id, attributes = {}, ...children) => html("div", { id, class: "panel", ...attributes }, ...children);
-    const part = (id) => html("div", { id });
-    this.#parts = {
-      together: part("axes-together"),
-      trust: panel("axes-trust", { role: "status", "aria-live": "polite" }), timing: html("div", { id: "axes-timing" }),
-      run: html("div", { id: "axes-run" }), read: html("p", { class: "facts", id: "axes-reading" }), plane: html("div", { id: "axes-plane", class: "picture" }), choice: html("select", { "aria-label": "plane of two positions" }),
-      rooms: panel("axes-rooms"), table: panel("axes-table"),
-    };
-    const { together, trust, timing, run, read, plane, choice, rooms, table } = this.#parts;
-    root.append(
-      html("section", { id: "axes-middle", "aria-label": "Timing diagram and positions" }, trust, html("div", { class: "panel" }, timing, run, read), html("div", { class: "panel" }, html("div", { class: "panel-head" }, html("span", { class: "quiet", text: "positions" }), choice), plane)),
-      html("section", { id: "axes-right", "aria-label": "Clearances" }, rooms, table),
-    );
-    this.form = together;
+    const parts = (this.#parts = laidOut(root,
+      column("axes-middle", "Timing diagram and positions", status("axes-trust"),
+        html("div", { class: "panel" }, part("axes-timing"), part("axes-run"), html("p", { class: "facts", id: "axes-reading" })),
+        growing(head(html("span", { class: "quiet", text: "positions" }), html("select", { id: "axes-choice", "aria-label": "plane of two positions" })), picture("axes-plane"))),
+      column("axes-right", "Clearances", panel("axes-rooms"), panel("axes-table", { class: "panel scrolled" })),
+    ));
+    const { timing, run, plane, choice, rooms } = parts;
+    this.form = html("div");
     this.#timing = new Timing(timing, (row, segments) => this.#moved(row, segments));
     this.#positions = new Positions(plane, (rule, corner, place) => this.#cornered(rule, corner, place));
     this.#rooms = new Panels(rooms, { cursor: this.#cursor });
@@ -113,7 +109,7 @@ export class View {
     const angle = at ?? 0;
     const rows = this.#answer?.refused ? [] : this.#answer?.rows ?? [];
     const places = rows.map(({ name, values, unit }) => `${name} ${written({ value: valueAt(this.#answer.at, values, angle), unit, digits: 4 })}`);
-    this.#parts.read.textContent = [`at ${written({ value: Number(angle.toFixed(1)), unit: "deg", digits: 6 })}`, ...places].join(" · ");
+    this.#parts.reading.textContent = [`at ${written({ value: Number(angle.toFixed(1)), unit: "deg", digits: 6 })}`, ...places].join(" · ");
   }
 
   #facts() {
@@ -162,8 +158,7 @@ export class View {
       return html("label", { class: "switch" }, box, `of ${name}`);
     });
     const press = overlap ? [html("button", { type: "button", text: "Put the moves together", onclick: () => this.#together.ask({ study: this.#study.state.machine }) })] : [];
-    this.#parts.facts ??= html("div", { role: "status", "aria-live": "polite" });
-    renew(this.#parts.together, group("Overlap", goal, ...boxes, ...press, this.#parts.facts));
+    renew(this.form, group("Overlap", goal, ...boxes, ...press, this.#gained));
   }
 
   #put({ refused, facts, study: made }, { study }) {
@@ -176,6 +171,6 @@ export class View {
   }
 
   #say(facts, none = false) {
-    this.#parts.facts?.replaceChildren(html("p", { class: none ? "reason" : "facts", text: listed(facts) }));
+    this.#gained.replaceChildren(html("p", { class: none ? "reason" : "facts", text: listed(facts) }));
   }
 }

@@ -4,6 +4,7 @@ import { explained, group } from "../fields.js";
 import { Form } from "../form.js";
 import { listed, written } from "../units.js";
 import { Latest } from "../latest.js";
+import { column, growing, laidOut, part, picture, status } from "../layout.js";
 import { Mechanism } from "../mechanism.js";
 import { Panels } from "../panels.js";
 import { Programme } from "../programme.js";
@@ -11,15 +12,14 @@ import { Run } from "../run.js";
 import { html } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
 
-const element = (id) => document.getElementById(id);
 /** Entries of the file that the page has elsewhere, or does not show. */
 const ELSEWHERE = ["title", "text", "motion", "speed", "period", "rows", "best", "pair", "process", "as_made", "file", "animation"];
 const TABLES = ["follower", "forces", "spring"];
 const named = (entries, name) => entries.find((entry) => entry.name === name);
-const WORDS = {
-  "base circle": "the smallest circle that touches the profile: the prime circle less the radius of the roller",
-  "undercut": "the profile crosses itself or has a cusp: no such cam can be cut",
-};
+const WORDS = [
+  ["base circle", "the smallest circle that touches the profile: the prime circle less the radius of the roller"],
+  ["undercut", "the profile crosses itself or has a cusp: no such cam can be cut"],
+];
 
 export class View {
   files;
@@ -28,23 +28,30 @@ export class View {
   #form;
   #kinds;
   #programme;
-  #mechanism = new Mechanism(element("cam-drawing"));
-  #motion = new Panels(element("cam-curves"));
+  #at;
+  #mechanism;
+  #motion;
   #cams;
   #sizes;
   #loads;
   #answer = null;
   #axis = "";
-  #read = html("p", { class: "facts", id: "cam-reading", role: "status" });
 
-  constructor(_root, study, { cam, programme }) {
+  constructor(root, study, { cam, programme }) {
     this.#study = study;
+    this.#at = laidOut(root,
+      html("aside", { id: "mechanism", "aria-label": "The cam, its follower and its motion" }, part("cam-size"), part("cam-programme")),
+      column("cam-middle", "The cam", status("cam-trust"), growing(picture("cam-drawing"), part("cam-turning"), html("p", { class: "facts", id: "cam-reading", role: "status" }))),
+      html("section", { id: "cam-curves", class: "panel", "aria-label": "Displacement, pressure angle and curvature over the turn" }),
+    );
+    this.#mechanism = new Mechanism(this.#at.drawing);
+    this.#motion = new Panels(this.#at.curves);
     this.#kinds = cam;
     const { choices } = named(named(cam.entries, "file").list.entries, "format");
     const cut = choices.map((format) => ({ kind: format, text: `Profile (${format})`, about: "The cam's edge, within 1 µm" }));
     this.files = ["problem", "table", ...cut];
     this.#form = new Form((what, alter) => study.change(what, (state) => alter(state.cam)), () => study.rest(), (one, _path, before) => this.#take(one, before));
-    this.#programme = new Programme(element("cam-programme"), study, (state) => state.cam, programme);
+    this.#programme = new Programme(this.#at.programme, study, (state) => state.cam, programme);
     this.#cams = new Latest("api/cam", (answer, question) => {
       this.#render(answer);
       if (answer.refused) return;
@@ -71,7 +78,7 @@ export class View {
   }
 
   #render(answer) {
-    showTrust(element("cam-trust"), answer, [], () => {});
+    showTrust(this.#at.trust, answer, [], () => {});
     if (!answer.refused) this.#fact(null);
     this.#answer = answer;
     this.#motion.show(answer);
@@ -80,16 +87,16 @@ export class View {
 
   /** What is known of the sizes stands below the words of trust; until it is, the space is kept. */
   #fact(facts) {
-    element("cam-trust").querySelector(".sizes")?.remove();
-    element("cam-trust").append(html("p", { class: "facts sizes", text: facts ? listed(facts) : "…" }));
+    this.#at.trust.querySelector(".sizes")?.remove();
+    this.#at.trust.append(html("p", { class: "facts sizes", text: facts ? listed(facts) : "…" }));
   }
 
   /** What the cam bears stands below its geometry. */
   #bear({ panels, facts, leaves = "" }) {
-    for (const old of element("cam-trust").querySelectorAll(".loads")) old.remove();
+    for (const old of this.#at.trust.querySelectorAll(".loads")) old.remove();
     // a cam that its follower leaves is no good one, whatever can be cut
-    if (leaves) element("cam-trust").querySelector("p")?.prepend(html("strong", { class: `word ${leaves.endsWith("off") ? "bad" : "warn"} loads`, text: leaves.replace("the follower ", "") }), " ");
-    if (facts.length) element("cam-trust").querySelector(".sizes")?.before(html("p", { class: "facts loads", text: listed(facts) }));
+    if (leaves) this.#at.trust.querySelector("p")?.prepend(html("strong", { class: `word ${leaves.endsWith("off") ? "bad" : "warn"} loads`, text: leaves.replace("the follower ", "") }), " ");
+    if (facts.length) this.#at.trust.querySelector(".sizes")?.before(html("p", { class: "facts loads", text: listed(facts) }));
     this.#mechanism.bear(panels.find(({ name }) => name === "contact force")?.series[0] ?? null);
     if (this.#answer && !this.#answer.refused) this.#motion.show({ ...this.#answer, panels: [...this.#answer.panels, ...panels] });
   }
@@ -100,7 +107,7 @@ export class View {
     const { entries, drive } = this.#kinds;
     const [follower, forces, spring] = TABLES.map((name) => named(entries, name));
     const sizes = entries.filter(({ name }) => !ELSEWHERE.includes(name) && !TABLES.includes(name));
-    element("cam-size").replaceChildren(
+    this.#at.size.replaceChildren(
       group("Follower", ...this.#form.fields([follower])),
       group("Cam", ...this.#form.fields(sizes)),
       group("Forces", ...this.#form.fields(drive[axis], ["motion", "drive"]), ...this.#form.fields(forces.entries, ["forces"])),
@@ -120,15 +127,15 @@ export class View {
   #turning(entries) {
     const measure = html("input", { type: "checkbox", checked: true });
     measure.addEventListener("change", () => this.#mechanism.measure(measure.checked));
-    new Run(element("cam-turning"), "Angle of the cam, degrees", this.#motion.cursor);
-    element("cam-turning").append(html("label", { class: "switch" }, measure, "dimensions"));
-    element("cam-turning").after(this.#read, explained({ ...WORDS, ...Object.fromEntries(entries.filter(({ name }) => !ELSEWHERE.includes(name)).map(({ label, about }) => [label, about])) }));
+    new Run(this.#at.turning, "Angle of the cam, degrees", this.#motion.cursor);
+    this.#at.turning.append(html("label", { class: "switch" }, measure, "dimensions"));
+    this.#at.reading.after(explained([...WORDS, ...entries.filter(({ name }) => !ELSEWHERE.includes(name)).map(({ label, about }) => [label, about])]));
   }
 
   /** The cam, and what is read of it, are where the cursor of the curves is. */
   #turn(at) {
     if (at === null) return;
     this.#mechanism.turn(at);
-    this.#read.textContent = [`at ${written({ value: Math.round(at), unit: "deg", digits: 6 })}`, ...this.#motion.readings].join(" · ");
+    this.#at.reading.textContent = [`at ${written({ value: Math.round(at), unit: "deg", digits: 6 })}`, ...this.#motion.readings].join(" · ");
   }
 }

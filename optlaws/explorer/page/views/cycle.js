@@ -2,6 +2,7 @@
 
 import { explained } from "../fields.js";
 import { Latest } from "../latest.js";
+import { column, laidOut, panel, status } from "../layout.js";
 import { Panels } from "../panels.js";
 import { join } from "../programme.js";
 import { table } from "../report_table.js";
@@ -10,21 +11,21 @@ import { html } from "../svg.js";
 import { showTrust, unanswered } from "../trust.js";
 import { listed } from "../units.js";
 
-const element = (id) => document.getElementById(id);
 const FIRST = 5; // column of the table that is a peak
 
-const WORDS = {
-  "position, velocity": "of the axis over a turn of the master, in the units of the machine; red is where a limit forbids to go",
-  "segments": "the bars above the curves: drag the joints between them, or move them by arrow keys; a click on a bar shows it large",
-  "least": "what is made as small as it can be over all segments without a law of their own",
-  "free": "a segment whose positions and velocities at its ends are found with the law",
-};
+const WORDS = [
+  ["position, velocity", "of the axis over a turn of the master, in the units of the machine; red is where a limit forbids to go"],
+  ["segments", "the bars above the curves: drag the joints between them, or move them by arrow keys; a click on a bar shows it large"],
+  ["least", "what is made as small as it can be over all segments without a law of their own"],
+  ["free", "a segment whose positions and velocities at its ends are found with the law"],
+];
 
 export class View {
   files = ["python", "problem", "table"];
   moves = true;
   drawings = "#motion svg";
   #study;
+  #at;
   #motion;
   #words = explained(WORDS);
   #answer = null;
@@ -32,10 +33,11 @@ export class View {
   #cycles;
   #nearest;
 
-  constructor(_root, study) {
+  constructor(root, study) {
     this.#study = study;
+    this.#at = laidOut(root, column("machine", "Motion in machine units", status("cycle-trust"), panel("motion"), panel("segments")));
     const strip = new Strip({ moved: (i, at) => this.#join(i, at), rested: () => study.rest(), chosen: (i) => this.#motion.look(this.#answer.segments[i].at) });
-    this.#motion = new Panels(element("motion"), { strip });
+    this.#motion = new Panels(this.#at.motion, { strip });
     this.#motion.cursor.watch((at) => this.#mark(at));
     this.#cycles = new Latest("api/cycle", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered(unanswered(error), question));
     this.#nearest = new Latest("api/cycle-nearest", ({ ways }) => this.#render(this.#answer, ways), () => this.#render(this.#answer, []));
@@ -58,10 +60,10 @@ export class View {
   #render(answer, ways) {
     this.#answer = answer;
     this.#ways = ways;
-    showTrust(element("cycle-trust"), answer, this.#ways, (way) => this.#back(way));
-    if (answer.facts) element("cycle-trust").append(html("p", { class: "facts", text: listed(answer.facts) }));
+    showTrust(this.#at.trust, answer, this.#ways, (way) => this.#back(way));
+    if (answer.facts) this.#at.trust.append(html("p", { class: "facts", text: listed(answer.facts) }));
     this.#motion.show(answer);
-    element("segments").replaceChildren(...(answer.refused ? [] : [segments(answer), ...beside(answer)]), this.#words);
+    this.#at.segments.replaceChildren(...(answer.refused ? [] : [segments(answer), ...beside(answer)]), this.#words);
   }
 
   /** Let a segment end at an angle, and the next one begin there. */
@@ -73,7 +75,7 @@ export class View {
   /** The segment that the cursor is in stands out in the table. */
   #mark(at) {
     const within = at === null ? -1 : (this.#answer?.segments ?? []).findIndex(({ at: [from, to] }) => at >= from && at <= to);
-    element("segments").querySelectorAll("tbody tr").forEach((row, i) => (i === within ? row.setAttribute("aria-current", "true") : row.removeAttribute("aria-current")));
+    this.#at.segments.querySelectorAll("tbody tr").forEach((row, i) => (i === within ? row.setAttribute("aria-current", "true") : row.removeAttribute("aria-current")));
   }
 
   #back({ entry, value }) {

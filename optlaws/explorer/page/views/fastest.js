@@ -6,6 +6,7 @@ import { Form } from "../form.js";
 import { flat } from "../entries.js";
 import { group } from "../fields.js";
 import { Latest } from "../latest.js";
+import { column, growing, head, laidOut, panel, part, picture, status } from "../layout.js";
 import { Panels } from "../panels.js";
 import { table } from "../report_table.js";
 import { Strip } from "../strip.js";
@@ -41,9 +42,15 @@ export class View {
     this.#space = space;
     this.#declared = Object.fromEntries(move.map((entry) => [entry.name, entry]));
     this.#study = study;
-    this.#at = layout(root);
+    this.form = html("div", {}, group("Least time of", html("select", { id: "fastest-of", "aria-label": "least time of" }, html("option", { value: "", text: "the cycle" }), html("option", { value: "moves", text: "moves of their own" }))), part("fastest-form"));
+    const [of, form] = this.form.querySelectorAll("[id]");
+    this.#at = { of, form, ...laidOut(root,
+      column("fastest-middle", "The least time and what longer times save", status("fastest-trust"), panel("fastest-timing", { class: "panel timing-of-motion" }),
+        growing(head(part("fastest-objective"), html("p", { id: "fastest-words", class: "quiet" })), picture("fastest-chart")),
+        panel("fastest-legend", { role: "group", "aria-label": "Which limit is nearest" })),
+      column("fastest-right", "The motion with its limits", panel("fastest-curves"), panel("fastest-table", { class: "panel scrolled", tabindex: "0", role: "group", "aria-label": "What is taken of each limit" })),
+    ) };
     this.#fields = new Form((what, alter) => this.#change(what, alter), () => study.rest());
-    this.form = this.#at.ask;
     this.#moves = examples.moves;
     this.#panels = new Panels(this.#at.curves, { strip: new Strip({ chosen: () => {} }) });
     this.#chart = new Chart(this.#at.chart, (_, value) => (value === null ? study.rest() : this.#give(value / 1000)));
@@ -260,26 +267,6 @@ export class View {
     const [[from, low], [to, high]] = [points[i - 1], points[i]];
     return low + ((time - from) / (to - from)) * (high - low);
   }
-}
-
-function layout(root) {
-  const made = { root };
-  const box = (name, attributes, ...children) => (made[name] = html("div", { id: `fastest-${name}`, ...attributes }, ...children));
-  root.setAttribute("aria-label", "Least times");
-  made.words = html("p", { id: "fastest-words", class: "quiet" });
-  made.of = html("select", { "aria-label": "least time of" }, html("option", { value: "", text: "the cycle" }), html("option", { value: "moves", text: "moves of their own" }));
-  made.ask = html("div", { id: "fastest-ask" }, group("Least time of", made.of), box("form", {}));
-  root.append(
-    html(
-      "section", { id: "fastest-middle", "aria-label": "The least time and what longer times save" },
-      box("trust", { class: "panel", role: "status", "aria-live": "polite" }),
-      html("div", { class: "panel" }, box("timing", { class: "timing-of-motion" })),
-      html("div", { class: "panel growing" }, html("div", { class: "panel-head" }, box("objective", {}), made.words), box("chart", { class: "picture" })),
-      box("legend", { class: "panel", role: "group", "aria-label": "Which limit is nearest" }),
-    ),
-    html("section", { id: "fastest-right", "aria-label": "The motion with its limits" }, box("curves", { class: "panel" }), box("table", { class: "panel", tabindex: "0", role: "group", "aria-label": "What is taken of each limit" })),
-  );
-  return made;
 }
 
 /** The curves with a series for each limit, where most is taken of that one. */

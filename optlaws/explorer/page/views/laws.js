@@ -3,20 +3,30 @@
 import { askedOf, move } from "../asked.js";
 import { Band } from "../band.js";
 import { Controls } from "../controls.js";
-import { group, slider, tabs } from "../fields.js";
+import { explained, group, slider, tabs } from "../fields.js";
 import { plain } from "../units.js";
 import { Latest } from "../latest.js";
+import { column, growing, head, laidOut, panel, part, picture, status } from "../layout.js";
 import { curvesOf } from "../law_curves.js";
 import { Panels } from "../panels.js";
 import { Plane } from "../plane.js";
 import { showTable } from "../table.js";
 import { Tray } from "../tray.js";
 import { showTrust, unanswered } from "../trust.js";
-import { html } from "../svg.js";
+import { html, svg } from "../svg.js";
 
 const PICTURES = { "B-C": "C over B", "B-D": "D over B", "B-J": "J over B", "C-D": "D over C", "J-C": "C over J", residual: "residual" };
 
-const element = (id) => document.getElementById(id);
+const look = (width, height, mark, attributes) => svg("svg", { width, height, "aria-hidden": "true" }, svg(mark, attributes));
+const WORDS = () => [
+  [look(26, 8, "path", { class: "front", d: "M0 4H26" }), "the front: for each value below, the optimal law of this order and degree; points alone are not proven least"],
+  [look(26, 8, "path", { class: "limit", d: "M0 4H26" }), "the best possible: no law of this order is below it, whatever its degree"],
+  [look(26, 10, "circle", { class: "mark-of-legend", cx: 13, cy: 5, r: 3.2 }), "standard laws; grey lines are Savin's families I to IV"],
+  ["a, b, c, j", "displacement from 0 to 1 over the time k from 0 to 1, and its velocity, acceleration and jerk; d = b·c is the power of a mass"],
+  ["B, C, D, J", "their peaks: a stroke h in a time T has the peak velocity B·h/T, the peak acceleration C·h/T², the peak jerk J·h/T³"],
+  ["order l", "conditions at each end: order 2 begins and ends at rest, order 3 also without acceleration, order 4 also without jerk"],
+  ["degree", "of the free polynomial Z: more of it comes nearer to the best possible and costs jerk"],
+];
 
 export class View {
   files = ["python", "problem", "law", "table"];
@@ -35,7 +45,8 @@ export class View {
   #plane;
   #residual;
   #band;
-  #curves = new Panels(element("curves"));
+  #at;
+  #curves;
   #chooses;
   #machines;
   #machine = [];
@@ -47,20 +58,28 @@ export class View {
   #residuals;
   #drawn;
 
-  constructor(_root, study, _start, drawn) {
+  constructor(root, study, _start, drawn) {
     this.#study = study;
     this.#drawn = drawn;
-    this.#controls = new Controls(element("ask"), study, (name) => this.#value(name));
-    this.#tray = new Tray(element("tray"), study);
+    this.#at = laidOut(root,
+      html("aside", { id: "ask", "aria-label": "What is asked of the law" }),
+      column("middle", "Laws in the plane of their constants", part("tray", { class: "tray", role: "group", "aria-label": "Laws side by side" }),
+        growing(head(part("pictures", { role: "tablist", "aria-label": "Pictures" }), html("p", { id: "words", class: "quiet" })), picture("plane"), part("follower", { hidden: true }), explained(WORDS())),
+        status("trust"), panel("table")),
+      html("section", { id: "curves", class: "panel", "aria-label": "The law and its derivatives over k" }),
+    );
+    this.#curves = new Panels(this.#at.curves);
+    this.#controls = new Controls(this.#at.ask, study, (name) => this.#value(name));
+    this.#tray = new Tray(this.#at.tray, study);
     const [plane, residual] = [html("div", { class: "fill" }), html("div", { class: "fill", id: "residual" })];
-    element("plane").append(plane, residual);
+    this.#at.plane.append(plane, residual);
     this.#plane = new Plane(plane, (x) => askedOf(study.state.laws[study.state.active], x), (value, x, y) => this.#move(value, x, y), (name) => this.#tray.add(name));
     this.#band = new Band(study);
     this.#residual = new Panels(residual, { strip: this.#band.strip });
     this.#residual.cursor.watch((at, placed) => placed && at !== null && at !== study.state.frequency && study.change("frequency", (state) => (state.frequency = Number(at.toPrecision(4)))));
-    this.#chooses = tabs(element("pictures"), PICTURES, (key) => study.change("picture", (state) => (state.picture = key)));
+    this.#chooses = tabs(this.#at.pictures, PICTURES, (key) => study.change("picture", (state) => (state.picture = key)));
     this.#follower = this.#followerFields();
-    this.#sizes = sizes(element("ask"), study);
+    this.#sizes = sizes(this.#at.ask, study);
     this.#machines = new Latest("api/law-machine", ({ rows }) => this.#inUnits(rows), (error) => this.#inUnits(this.#views[this.#state.active]?.refused ? [] : [{ name: error.message, cells: {} }]));
     this.#laws = new Latest("api/laws", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered({ laws: question.laws.map(() => unanswered(error)) }, question));
     this.#fronts = new Latest("api/front", (front) => this.#showFront(front), (error) => this.#withoutFront(error));
@@ -81,9 +100,9 @@ export class View {
   show(state) {
     this.#state = state;
     const isResidual = state.picture === "residual";
-    const [plane, residual] = element("plane").children;
+    const [plane, residual] = this.#at.plane.children;
     plane.hidden = isResidual;
-    residual.hidden = element("follower").hidden = !isResidual;
+    residual.hidden = this.#at.follower.hidden = !isResidual;
     this.#chooses(state.picture);
     this.#controls.show(state.laws[state.active]);
     this.#sizes(state);
@@ -113,13 +132,13 @@ export class View {
     if (JSON.stringify(question) === JSON.stringify(this.#front)) return;
     this.#front = question;
     this.#words = "computing the front …";
-    element("plane").classList.add("behind");
+    this.#at.plane.classList.add("behind");
     this.#fronts.ask(question);
   }
 
   #showFront(front) {
     this.#words = front.words;
-    element("plane").classList.remove("behind");
+    this.#at.plane.classList.remove("behind");
     this.#plane.showFront(front);
     this.#render();
   }
@@ -157,7 +176,7 @@ export class View {
 
   #inUnits(rows) {
     this.#machine = rows;
-    showTable(element("table"), this.#state.laws.map((_, i) => this.#views[i]), this.#state.active, rows);
+    showTable(this.#at.table, this.#state.laws.map((_, i) => this.#views[i]), this.#state.active, rows);
   }
 
   #near({ ways }, question) {
@@ -173,9 +192,9 @@ export class View {
     this.#tray.show(laws, views, active);
     this.#curves.show(curvesOf(views, active));
     this.#plane.showLaws(laws.map((law, i) => ({ view: views[i], asked: askedOf(law, x), movable: Boolean(law.problem) })), active);
-    showTrust(element("trust"), views[active], this.#ways, (way) => this.#back(way));
-    showTable(element("table"), views, active, this.#machine);
-    element("words").textContent = picture === "residual" ? this.#left : this.#words;
+    showTrust(this.#at.trust, views[active], this.#ways, (way) => this.#back(way));
+    showTable(this.#at.table, views, active, this.#machine);
+    this.#at.words.textContent = picture === "residual" ? this.#left : this.#words;
   }
 
   #value(name) {
@@ -204,7 +223,7 @@ export class View {
     });
     const frequency = field("frequency ν", "Frequency nu of the follower", "frequency", 80, 0.5);
     const damping = field("damping ζ", "Damping ratio of the follower", "damping", 0.3, 0.005);
-    element("follower").append(frequency.element, damping.element, ...this.#band.elements);
+    this.#at.follower.append(frequency.element, damping.element, ...this.#band.elements);
     return (state) => {
       this.#band.show(state);
       frequency.set(state.frequency);

@@ -4,6 +4,7 @@
 import { Chart, spanOf } from "../chart.js";
 import { tabs } from "../fields.js";
 import { Latest } from "../latest.js";
+import { column, growing, head, laidOut, panel, part, picture, status } from "../layout.js";
 import { Linkage } from "../linkage.js";
 import { beside, changeAll } from "../machine_form.js";
 import { Panels } from "../panels.js";
@@ -54,8 +55,13 @@ export class View {
 
   constructor(root, study) {
     this.#study = study;
-    const made = layout(root);
-    this.#at = made;
+    const made = (this.#at = laidOut(root,
+      column("machine-middle", "The mechanism and its torque", part("machine-tray", { class: "tray", role: "group", "aria-label": "Laws side by side" }), status("machine-trust"),
+        growing(picture("machine-drawing"), part("machine-turning")),
+        growing(head(part("machine-pictures", { role: "tablist", "aria-label": "Pictures of the machine" }), html("p", { id: "machine-words", class: "quiet" })), picture("machine-chart"), part("machine-input"))),
+      column("machine-right", "Torque, power and speed over the cycle", panel("machine-curves"),
+        panel("machine-table", { class: "panel scrolled", tabindex: "0", role: "group", "aria-label": "What the laws ask of the drive" })),
+    ));
     this.#linkage = new Linkage(made.drawing);
     this.#chart = new Chart(made.chart, (key, value) => this.#moved(key, value));
     this.#input = new Panels(made.input);
@@ -352,26 +358,6 @@ function driving({ study, axis }, limiting) {
   const axes = structuredClone(beside(study, axis));
   for (const { drive } of axes) for (const name of limiting) delete drive?.motor?.[name];
   return [speed, period, axes];
-}
-
-function layout(root) {
-  const made = { root };
-  const box = (name, attributes, ...children) => (made[name] = html("div", { id: `machine-${name}`, ...attributes }, ...children));
-  root.setAttribute("aria-label", "A machine");
-  const middle = html(
-    "section", { id: "machine-middle", "aria-label": "The mechanism and its torque" },
-    box("tray", { class: "tray", role: "group", "aria-label": "Laws side by side" }),
-    box("trust", { class: "panel", role: "status", "aria-live": "polite" }),
-    html("div", { class: "panel growing" }, box("drawing", { class: "picture" }), box("turning", { class: "turning" })),
-    html("div", { class: "panel growing" }, html("div", { class: "panel-head" }, box("pictures", { role: "tablist", "aria-label": "Pictures of the machine" }), (made.words = html("p", { id: "machine-words", class: "quiet" }))), box("chart", { class: "picture" }), box("input", { class: "panels", hidden: true })),
-  );
-  const right = html(
-    "section", { id: "machine-right", "aria-label": "Torque, power and speed over the cycle" },
-    box("curves", { class: "panel panels" }),
-    box("table", { class: "panel", tabindex: "0", role: "group", "aria-label": "What the laws ask of the drive" }),
-  );
-  root.append(middle, right);
-  return made;
 }
 
 function driveTable({ rows, active }, names) {

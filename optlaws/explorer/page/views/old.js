@@ -3,6 +3,7 @@
 import { group, slider } from "../fields.js";
 import { Form } from "../form.js";
 import { Latest } from "../latest.js";
+import { column, laidOut, panel, status } from "../layout.js";
 import { stateOf, textOf } from "../opening.js";
 import { Panels } from "../panels.js";
 import { table } from "../report_table.js";
@@ -19,10 +20,7 @@ export class View {
   moves = true;
   drawings = "#old-curves svg";
   #study;
-  #trust = html("div", { id: "old-trust", class: "panel", role: "status", "aria-live": "polite" });
-  #moves = html("div", { id: "old-moves", class: "panel" });
-  #gains = html("div", { id: "old-gains", class: "panel" });
-  #form = html("aside", { id: "old-ask", "aria-label": "The table and what is asked of it" });
+  #at;
   #band = html("div");
   #name = html("strong");
   #fields;
@@ -38,9 +36,12 @@ export class View {
   constructor(root, study, { table: entries }) {
     this.#study = study;
     this.#fields = new Form((what, alter) => study.change(what, (state) => alter(state.old)), () => study.rest());
-    const curves = html("section", { id: "old-curves", class: "panel", "aria-label": "Points and laws over the master" });
-    root.append(this.#form, html("section", { id: "old-middle", "aria-label": "What the table holds" }, this.#trust, this.#moves, this.#gains), curves);
-    this.#curves = new Panels(curves, { strip: new Strip({ chosen: (i) => this.#curves.look(this.#answer.segments[i].at) }) });
+    this.#at = laidOut(root,
+      html("aside", { id: "old-ask", "aria-label": "The table and what is asked of it" }),
+      column("old-middle", "What the table holds", status("old-trust"), panel("old-moves"), panel("old-gains")),
+      html("section", { id: "old-curves", class: "panel", "aria-label": "Points and laws over the master" }),
+    );
+    this.#curves = new Panels(this.#at.curves, { strip: new Strip({ chosen: (i) => this.#curves.look(this.#answer.segments[i].at) }) });
     this.#tables = new Latest("api/old", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered(unanswered(error), question));
     this.#better = new Latest("api/old-move", (answer, question) => this.#find(answer, question), (error, question) => this.#find(unanswered(error), question));
     this.#build(entries);
@@ -78,7 +79,7 @@ export class View {
     if (!laws.length) {
       this.#asked = study;
       this.#found = [];
-      showTrust(this.#trust, answer, [], () => {});
+      showTrust(this.#at.trust, answer, [], () => {});
       if (!answer.refused) this.#measure(answer);
     }
     this.#draw();
@@ -109,12 +110,12 @@ export class View {
     const answer = this.#answer;
     this.#curves.show(answer.refused ? answer : { ...answer, active: 0 });
     if (answer.refused) {
-      this.#moves.replaceChildren();
-      this.#gains.replaceChildren();
+      this.#at.moves.replaceChildren();
+      this.#at.gains.replaceChildren();
       return;
     }
     const { moves, heights: unit, drawn, tables: [stretches, gains] } = answer;
-    this.#moves.replaceChildren(table("Moves of the table", stretches.headings, stretches.rows), html("p", { class: "facts", text: ["A old law · B new law · C points", drawn].filter(Boolean).join(" · ") }), html("button", { type: "button", text: "Take these moves as the machine", onclick: ({ target }) => this.#hand().catch((error) => target.after(html("p", { class: "reason", text: error.message }))) }));
+    this.#at.moves.replaceChildren(table("Moves of the table", stretches.headings, stretches.rows), html("p", { class: "facts", text: ["A old law · B new law · C points", drawn].filter(Boolean).join(" · ") }), html("button", { type: "button", text: "Take these moves as the machine", onclick: ({ target }) => this.#hand().catch((error) => target.after(html("p", { class: "reason", text: error.message }))) }));
     const words = `Laws of least acceleration within ${written({ value: answer.within, unit, digits: 6 })} of the old ones at every place; jerk at most a fifth above.`;
     const button = html("button", { type: "button", text: "Find better laws", onclick: () => {
       this.#wanted = true;
@@ -123,7 +124,7 @@ export class View {
     } });
     const missing = moves.map((name, i) => [name, this.#found[i]]).filter(([, one]) => !one?.law).map(([name, one]) => `${name}: ${one ? written(one.kept ?? one.refused.reason) : "…"}`);
     const found = this.#laws.length ? [...(gains ? [table("Better laws within the tolerance", gains.headings, gains.rows)] : []), checking()] : [];
-    renew(this.#gains, html("p", { class: "quiet", text: words }), ...(this.#wanted ? [...found, html("p", { class: "facts", text: missing.join(" · ") })] : [button]));
+    renew(this.#at.gains, html("p", { class: "quiet", text: words }), ...(this.#wanted ? [...found, html("p", { class: "facts", text: missing.join(" · ") })] : [button]));
   }
 
   /** The moves are the machine from now on, with their laws by name. */
@@ -148,7 +149,7 @@ export class View {
   #build(entries) {
     const chooser = html("input", { type: "file", "aria-label": "Table of an old cam", onchange: () => chooser.files.length && this.#take(chooser.files[0]) });
     const fields = (shown) => entries.filter(({ name }) => shown(name)).map((entry) => this.#fields.field({ ...entry, path: [entry.name] }, entry.label));
-    this.#form.replaceChildren(
+    this.#at.ask.replaceChildren(
       group("Table", html("p", {}, this.#name), chooser, html("p", { class: "hint", text: "or drop a file anywhere: columns of numbers, or what a controller has (CODESYS, TwinCAT, Siemens, an .L5X of Rockwell, …)" }), ...fields((name) => !ELSEWHERE.includes(name))),
       this.#band,
       group("Machine", ...fields((name) => name === "speed")),
