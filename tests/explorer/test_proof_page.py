@@ -18,23 +18,20 @@ if TYPE_CHECKING:
     from playwright.sync_api import Page
 
 
-def test_a_file_is_checked_on_the_page_without_the_server(page: Page, served: Server, tmp_path: Path) -> None:
+def test_a_file_is_checked_on_the_page(page: Page, served: Server, tmp_path: Path) -> None:
     solution = synthesize(Problem(B=1.859, order=3, basis=Chebyshev(5))).to_dict()
     false = solution | {"objective": solution["objective"] * 1.001}
     for name, data in (("law.json", solution), ("false.json", false), ("text.json", {"text": 1})):
         (tmp_path / name).write_text(json.dumps(data), encoding="utf8")
-    page.goto(f"http://{served.host}/proof.html")
-    page.locator("#proof-file").wait_for()
-    page.context.set_offline(offline=False)
+    go(page, f"http://{served.host}/#view=%22proof%22")
 
     def verdict(name: str) -> str:
-        page.locator("#proof-file").set_input_files(tmp_path / name)
-        page.locator("body[data-work=ready] #verdict", has_text=name).wait_for(timeout=60_000)
-        return page.locator("#verdict").inner_text()
+        page.get_by_label("File with a proof").set_input_files(tmp_path / name)
+        page.locator("body[data-work=settled] #proof-verdict", has_text=name).wait_for(timeout=60_000)
+        return page.locator("#proof-verdict").inner_text()
 
     assert verdict("law.json").startswith("proven law.json: 15 proven")
     assert page.locator(".claims tbody tr").count() == 15
-    page.screenshot(path=tmp_path / "proof.png")
     assert verdict("false.json").startswith("not proven false.json")
     assert "nothing in it is a certificate" in verdict("text.json")
 

@@ -1,7 +1,5 @@
 // What the state asks of a law, read and changed entry by entry; ranges are kept as [low, high].
 
-export const CONSTANTS = ["C", "D", "J", "rms_c"];
-
 const upper = (value) => (Array.isArray(value) ? value[1] : value) ?? null;
 
 export function bound(law, name) {

@@ -1,10 +1,10 @@
 // A band of frequencies in the picture of the residual: dragged, weighed by a measured spectrum, and a bound of the law.
 
-import { slider } from "./fields.js";
-import { plain } from "./units.js";
+import { slider } from "./form.js";
 import { Latest } from "./latest.js";
 import { Strip } from "./strip.js";
 import { html } from "./svg.js";
+import { plain } from "./units.js";
 
 const STEP = 0.1;
 const WIDE = 0.1; // of the frequency, on either side, as a band begins

@@ -72,19 +72,18 @@ export async function reached(load) {
 
 class Lost extends Error {}
 
-async function ask(path, question, patience, signal) {
-  const response = await fetch(patience ? `${path}?patience=${patience}` : path, {
-    method: "POST",
-    headers: { "Content-Type": "application/json" },
-    body: JSON.stringify(question),
-    signal,
-  }).catch((error) => {
+/** What the server answers to a question; an error says why it does not. */
+export async function post(path, question, signal) {
+  const response = await fetch(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(question), signal }).catch((error) => {
     throw error.name === "AbortError" ? error : new Lost(error.message);
   });
   const answer = await response.json();
   if (answer.error) throw Object.assign(new Error(answer.error), { late: answer.late });
   return answer;
 }
+
+/** The view of what has no answer: what was shown before is of another question. */
+export const unanswered = ({ message }) => ({ refused: { word: "no answer", reason: message, tried: "" } });
 
 export class Latest {
   #path;
@@ -98,7 +97,8 @@ export class Latest {
   slow = false;
   since = 0; // when the question in flight was asked
 
-  constructor(path, answered, failed) {
+  /** `answered(answer, question)` and `failed(error, question)`, unless the first one is given a refusal. */
+  constructor(path, answered, failed = (error, question) => answered(unanswered(error), question)) {
     this.#path = path;
     this.#answered = answered;
     this.#failed = failed;
@@ -165,7 +165,7 @@ export class Latest {
         this.#giveWay();
       }, SLOW);
       try {
-        const answer = await ask(this.#path, question, patience, this.#flight.signal);
+        const answer = await post(patience ? `${this.#path}?patience=${patience}` : this.#path, question, this.#flight.signal);
         this.#state({ lost: false, slow: false });
         this.#answered(answer, question);
         // answers that keep up with a drag are as good as of now

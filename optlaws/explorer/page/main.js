@@ -2,11 +2,10 @@
 
 import { Details, begun, keep } from "./document.js";
 import { Exporting } from "./exporting.js";
-import { tabs } from "./fields.js";
-import { MachineForms } from "./machine_forms.js";
+import { Opening, fileOf } from "./files.js";
 import { during, observe, reached } from "./latest.js";
-import { Opening } from "./opening.js";
-import { fileOf } from "./saving.js";
+import { tabs } from "./layout.js";
+import { MachineForms } from "./machine_forms.js";
 import { Study, read } from "./state.js";
 import { html } from "./svg.js";
 import { restore } from "./theme.js";

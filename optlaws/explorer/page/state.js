@@ -1,7 +1,7 @@
 // The study: all that the page shows follows from it, the address holds it, and every step can be undone.
 
 import { minimise } from "./asked.js";
-import { PARTS, VIEWS, object } from "./views.js";
+import { PARTS, VIEWS, object, same } from "./views.js";
 
 const MERGED = 800; // ms within which changes of one thing are one step; those of one press of the pointer always are
 const MOST = 200;
@@ -35,8 +35,6 @@ const pair = (value) => Array.isArray(value) && value.length === 2 && value.ever
 const spectrum = (value) => object(value) && Array.isArray(value.raw) && value.raw.length > 1 && value.raw.every(pair);
 const WHOLE = { controller: object, band: pair, spectrum, ...Object.fromEntries(Object.entries(PARTS).map(([name, { whole }]) => [name, whole])) };
 const KNOWN = ["name", "notes", "view", "active", "picture", "machinePicture", "move", "time", "axis", "plane", "frequency", "damping", "cycle", "axes", ...Object.keys(WHOLE)];
-
-const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
 /** What differs from the first state, as an address's fragment. */
 export function written(state) {

@@ -19,6 +19,8 @@ export function html(tag, attributes = {}, ...children) {
   return fill(document.createElement(tag), attributes, children);
 }
 
+export const button = (text, onclick, attributes = {}, ...children) => html("button", { type: "button", text, onclick, ...attributes }, ...children);
+
 export function svg(tag, attributes = {}, ...children) {
   return fill(document.createElementNS(SVG, tag), attributes, children);
 }

@@ -1,7 +1,7 @@
 // The tools of the head: undo, redo, the link, files to save, dark and light.
 
+import { save, savings } from "./files.js";
 import { present, reached } from "./latest.js";
-import { save, savings } from "./saving.js";
 import { html } from "./svg.js";
 import { toggle } from "./theme.js";
 import { CHOICES, choose, chosen } from "./units.js";

@@ -1,5 +1,6 @@
 // The laws side by side: which one is active, another added, one taken away.
 
+import { swatch } from "./layout.js";
 import { html, renew } from "./svg.js";
 
 const MOST = 4;
@@ -7,7 +8,7 @@ const MOST = 4;
 /** Laws by their titles as chips, of which one is active; `choose(i)` makes one so, `remove(i)` takes one of several away. */
 export function chips(titles, active, choose, remove) {
   return titles.map((title, i) => html("span", { class: `chip${i === active ? " active" : ""}` },
-    html("button", { type: "button", class: "choose", "data-key": `law ${i}`, "aria-pressed": String(i === active), title, onclick: () => choose(i) }, html("span", { class: `swatch law-${i}`, text: "ABCD"[i] }), html("span", { class: "chip-name", text: title })),
+    html("button", { type: "button", class: "choose", "data-key": `law ${i}`, "aria-pressed": String(i === active), title, onclick: () => choose(i) }, swatch(i), html("span", { class: "chip-name", text: title })),
     titles.length > 1 ? html("button", { type: "button", class: "close", "data-key": `close ${i}`, "aria-label": `Take ${title} away`, text: "×", onclick: () => remove(i) }) : null));
 }
 

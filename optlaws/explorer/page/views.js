@@ -8,6 +8,7 @@
 // shown; other files are opened. `start` is what the server tells of catalogues and formats.
 
 export const object = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
+export const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 const motion = (value) => object(value) && Array.isArray(value.segment) && value.segment.every(object);
 const tables = (value) => Array.isArray(value) && value.length > 0 && value.every(object);
 

@@ -2,13 +2,12 @@
 // with all their measures, the recommended one in two sentences, the front, and curves of it beside the usual law.
 
 import { Chart, spanOf } from "../chart.js";
-import { group } from "../fields.js";
-import { Latest } from "../latest.js";
-import { column, growing, laidOut, panel, part, picture, status } from "../layout.js";
-import { Form } from "../form.js";
+import { Form, choice, entry } from "../form.js";
+import { Latest, unanswered } from "../latest.js";
+import { column, fragment, group, growing, laidOut, panel, part, picture, status, swatch } from "../layout.js";
 import { Panels } from "../panels.js";
-import { html, renew } from "../svg.js";
-import { marked, unanswered } from "../trust.js";
+import { marked, table } from "../report.js";
+import { button, html, renew } from "../svg.js";
 import { headed, number, shownUnit, written } from "../units.js";
 
 const OBJECTIVES = ["", "acceleration", "jerk", "rms acceleration", "torque", "rms torque", "force", "rms force", "residual acceleration"];
@@ -31,7 +30,7 @@ export class View {
   #study;
   #state = null;
   #answer = null;
-  #shows = [];
+  #fields = new Form((what, alter) => this.#change(what, alter), () => this.#study.rest());
   #chart;
   #curves;
   #standard;
@@ -57,7 +56,7 @@ export class View {
 
   show(state) {
     this.#state = state;
-    for (const show of this.#shows) show(this.#asked(state));
+    this.#fields.show(this.#asked(state));
     const question = this.request(state);
     if (JSON.stringify(question) === this.#question) return;
     this.#question = JSON.stringify(question);
@@ -86,20 +85,16 @@ export class View {
   // --- what is asked ---
 
   #build() {
-    const least = html("select", { "aria-label": "least" }, ...OBJECTIVES.map((value) => html("option", { value, text: value || "as it says" })));
-    least.addEventListener("change", () => this.#change("least", (asked) => (asked.minimise = least.value)));
-    this.#shows.push((asked) => (least.value = asked.minimise));
-    const on = html("input", { type: "checkbox" });
-    on.addEventListener("change", () => this.#change("follower", (asked) => (asked.follower.on = on.checked)));
-    this.#shows.push((asked) => (on.checked = asked.follower.on));
-    const fields = new Form((what, alter) => this.#change(what, (asked) => alter(asked.follower)), () => this.#study.rest());
-    const follower = FOLLOWER.map(([key, label]) => fields.field({ path: [key], label, placeholder: String(ASKED.follower[key]) }, `follower, ${label}`));
-    this.#shows.push((asked) => {
-      fields.show(asked.follower);
+    const least = choice("least", Object.fromEntries(OBJECTIVES.map((value) => [value, value || "as it says"])), "", (value) => this.#change("least", (asked) => (asked.minimise = value)));
+    const on = html("input", { type: "checkbox", onchange: () => this.#change("follower", (asked) => (asked.follower.on = on.checked)) });
+    const follower = FOLLOWER.map(([key, label]) => this.#fields.field({ path: ["follower", key], label, placeholder: String(ASKED.follower[key]) }, `follower, ${label}`));
+    this.#fields.also((asked) => {
+      least.value = asked.minimise;
+      on.checked = asked.follower.on;
       for (const field of follower) field.lastElementChild.disabled = !asked.follower.on;
     });
     return html("div", {},
-      group("Advice", html("label", { class: "entry" }, html("span", { class: "field-name", text: "least" }), least), html("p", { class: "hint", text: "with the limits, the drive and the load of the motion" })),
+      group("Advice", entry("least", least), html("p", { class: "hint", text: "with the limits, the drive and the load of the motion" })),
       group("What it leaves vibrating", html("label", { class: "switch" }, on, "an elastic follower"), ...follower, html("p", { class: "hint", text: "its natural frequency, the least and the greatest, and its damping ratio" })),
     );
   }
@@ -135,7 +130,7 @@ export class View {
     renew(this.#at.table, ...(answer.refused ? [] : [this.#table(answer), ...(answer.remarks ?? []).map((text) => html("p", { class: "quiet", translate: "no", text }))]));
     this.#chart.show(answer.refused ? null : pictured(answer));
     this.#curves.show(answer.refused ? answer : answer.curves);
-    renew(this.#at.names, ...(answer.refused ? [] : answer.curves.panels[0]?.series ?? []).map(({ law, name }) => html("span", { class: "name-of-curve" }, html("span", { class: `swatch law-${law}`, text: "AB"[law] }), ` ${name}`)));
+    renew(this.#at.names, ...(answer.refused ? [] : answer.curves.panels[0]?.series ?? []).map(({ law, name }) => html("span", { class: "name-of-curve" }, swatch(law), ` ${name}`)));
   }
 
   /** Which step is under way, with a button that ends it; or goes on with it. */
@@ -164,15 +159,20 @@ export class View {
   #table({ measures, rows, chosen }) {
     // beside so many quantities what a law keeps and proves stands under its name, or the table would be too wide
     const beneath = measures.length > MOST_BESIDE;
-    const columns = [...measures.map(({ name, unit }) => headed(name, unit)), ...(beneath ? [] : ["limits", "proof"])];
-    const head = html("tr", {}, html("th", { scope: "col", text: "law" }), ...columns.map((text) => html("th", { scope: "col", class: "number", text })));
-    const lines = rows.map((row) => {
-      const take = row.take ? html("button", { type: "button", class: "link", "data-key": `take ${row.name}`, "aria-label": `Take ${row.name}`, text: "take", onclick: () => this.#take(row) }) : "";
-      const ends = [["limits", row.limits, row.limits && row.limits !== "satisfied" ? "number over" : "number"], ["proof", row.proof, "number"]];
-      return html("tr", { class: row.name === chosen ? "active" : "", "aria-current": row.name === chosen ? "true" : null },
-        html("th", { scope: "row" }, html("span", { class: "row-name", text: row.name }), take, ...(beneath ? ends.filter(([, text]) => text).map(([key, text, name]) => html("span", { "data-ends": key, class: name.includes("over") ? "over" : "quiet", text })) : [])), ...row.values.map((value, i) => html("td", { class: "number", text: number(value, measures[i].unit, 5) })), ...(beneath ? [] : ends).map(([key, text, name]) => html("td", { "data-column": key, class: name, text })));
+    const ends = ({ limits, proof }) => [["limits", limits, limits && limits !== "satisfied" ? "over" : null], ["proof", proof, null]];
+    const named = (row) => fragment(
+      html("span", { class: "row-name", text: row.name }),
+      row.take ? button("take", () => this.#take(row), { class: "link", "data-key": `take ${row.name}`, "aria-label": `Take ${row.name}` }) : "",
+      ...(beneath ? ends(row).filter(([, text]) => text).map(([key, text, over]) => html("span", { "data-ends": key, class: over ?? "quiet", text })) : []),
+    );
+    const cells = rows.map((row) => [named(row), ...row.values.map((value, i) => number(value, measures[i].unit, 5)), ...(beneath ? [] : ends(row)).map(([, text]) => text)]);
+    const look = (i, j) => {
+      const [key, , over] = ends(rows[i])[j - 1 - measures.length] ?? [];
+      return key ? { "data-column": key, class: over } : {};
+    };
+    return table("Laws with what they take", ["law", ...measures.map(({ name, unit }) => headed(name, unit)), ...(beneath ? [] : ["limits", "proof"])], cells, {
+      right: true, look, class: beneath ? "dense" : null, line: (i) => ({ class: rows[i].name === chosen ? "active" : null, "aria-current": rows[i].name === chosen ? "true" : null }),
     });
-    return html("table", { class: beneath ? "dense" : null, "aria-label": "Laws with what they take" }, html("thead", {}, head), html("tbody", {}, ...lines));
   }
 
   /** Give the motion a law, and show it there. */

@@ -1,17 +1,17 @@
 // The timing of the machine: its axes in a diagram with interlocks, the plane of two positions, clearances, a run.
 
 import { Cursor } from "../cursor.js";
-import { group } from "../fields.js";
+import { choice } from "../form.js";
 import { Latest } from "../latest.js";
-import { column, growing, head, laidOut, panel, part, picture, status } from "../layout.js";
+import { column, group, growing, head, laidOut, panel, part, picture, status } from "../layout.js";
 import { Panels } from "../panels.js";
 import { Positions } from "../positions.js";
-import { table } from "../report_table.js";
+import { showTrust, table } from "../report.js";
 import { Run } from "../run.js";
 import { html, renew } from "../svg.js";
 import { Timing, valueAt } from "../timing.js";
-import { showTrust, unanswered } from "../trust.js";
 import { listed, written } from "../units.js";
+import { same } from "../views.js";
 
 const GOALS = { "": "as they are given", acceleration: "least acceleration", period: "least period" };
 const WORDS = { clear: "good", broken: "bad" };
@@ -52,8 +52,8 @@ export class View {
     new Run(run, "Angle of the master, degrees", this.#cursor);
     this.#cursor.watch((at) => this.#turn(at));
     choice.addEventListener("change", () => study.change("plane", (state) => (state.plane = Number(choice.value))));
-    this.#answers = new Latest("api/axes", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered(unanswered(error), question));
-    this.#clearances = new Latest("api/axes-clearances", (known, question) => JSON.stringify(question) === JSON.stringify(this.#asked) && this.#know(known), (error) => this.#know(unanswered(error)));
+    this.#answers = new Latest("api/axes", (...answer) => this.#answered(...answer));
+    this.#clearances = new Latest("api/axes-clearances", (known, question) => same(question, this.#asked) && this.#know(known));
     this.#together = new Latest("api/axes-together", (answer, question) => this.#put(answer, question), (error) => this.#say([error.message]));
   }
 
@@ -82,7 +82,7 @@ export class View {
   /** What is proven of the answer that is drawn. */
   #know(known) {
     this.#known = { rows: [], ...known, of: JSON.stringify(this.#asked) };
-    showTrust(this.#parts.trust, known, [], () => {});
+    showTrust(this.#parts.trust, known);
     this.#draw();
     this.#facts();
   }
@@ -90,7 +90,7 @@ export class View {
   #draw() {
     const known = this.#known?.of === JSON.stringify(this.#asked) ? this.#known.rows : [];
     const { study } = this.#asked;
-    this.#timing.show(this.#answer, study, known.map(({ status }) => status), JSON.stringify(study) === JSON.stringify(this.#study.state.machine));
+    this.#timing.show(this.#answer, study, known.map(({ status }) => status), same(study, this.#study.state.machine));
     this.#positions.show(this.#answer, this.#study.state.plane ?? 0, known);
     const { refused, panels, across, unit, note, planes = [] } = this.#answer;
     this.#rooms.show(refused ? this.#answer : { across, unit, note, panels: known.length ? this.#known.panels : panels, segments: [] });
@@ -144,10 +144,8 @@ export class View {
     const shape = JSON.stringify([names, overlap]);
     if (shape === this.#shape) return;
     this.#shape = shape;
-    const goal = html("select", { "aria-label": "put the moves together for" }, ...Object.entries(GOALS).map(([value, text]) => html("option", { value, text })));
-    goal.value = overlap?.goal ?? "";
-    goal.addEventListener("change", () => this.#study.change("overlap", (state) => {
-      if (goal.value) state.machine.overlap = { goal: goal.value, ...(goal.value === "acceleration" && { of: [names[state.axis] ?? names[0]] }) };
+    const goal = choice("put the moves together for", GOALS, overlap?.goal ?? "", (value) => this.#study.change("overlap", (state) => {
+      if (value) state.machine.overlap = { goal: value, ...(value === "acceleration" && { of: [names[state.axis] ?? names[0]] }) };
       else delete state.machine.overlap;
     }));
     const chosen = overlap?.of ?? [];
@@ -163,7 +161,7 @@ export class View {
 
   #put({ refused, facts, study: made }, { study }) {
     if (refused) return this.#say([`${refused.word}: ${written(refused.reason)}`], true);
-    if (made && JSON.stringify(study) === JSON.stringify(this.#study.state.machine)) {
+    if (made && same(study, this.#study.state.machine)) {
       this.#study.change("together", (state) => (state.machine = made));
       this.#study.rest();
     }

@@ -1,16 +1,16 @@
 // The view of a cam: mechanism and motion on the left, the cam that turns, pressure angle and curvature on the right.
 
-import { explained, group } from "../fields.js";
 import { Form } from "../form.js";
-import { listed, written } from "../units.js";
 import { Latest } from "../latest.js";
-import { column, growing, laidOut, part, picture, status } from "../layout.js";
+import { column, explained, group, growing, laidOut, part, picture, status } from "../layout.js";
+import { Programme } from "../machine_forms.js";
 import { Mechanism } from "../mechanism.js";
 import { Panels } from "../panels.js";
-import { Programme } from "../programme.js";
+import { showTrust } from "../report.js";
 import { Run } from "../run.js";
 import { html } from "../svg.js";
-import { showTrust, unanswered } from "../trust.js";
+import { listed, written } from "../units.js";
+import { same } from "../views.js";
 
 /** Entries of the file that the page has elsewhere, or does not show. */
 const ELSEWHERE = ["title", "text", "motion", "speed", "period", "rows", "best", "pair", "process", "as_made", "file", "animation"];
@@ -35,7 +35,6 @@ export class View {
   #sizes;
   #loads;
   #answer = null;
-  #axis = "";
 
   constructor(root, study, { cam, programme }) {
     this.#study = study;
@@ -57,9 +56,9 @@ export class View {
       if (answer.refused) return;
       if (question.study.motion?.drive) this.#loads.ask(question);
       this.#sizes.ask(question);
-    }, (error) => this.#render(unanswered(error)));
-    this.#loads = new Latest("api/cam-loads", (loads, asked) => JSON.stringify(asked.study) === JSON.stringify(this.#study.state.cam) && this.#bear(loads), (error) => this.#bear({ panels: [], facts: [error.message] }));
-    this.#sizes = new Latest("api/cam-sizes", ({ facts }, asked) => JSON.stringify(asked.study) === JSON.stringify(this.#study.state.cam) && this.#fact(facts), (error) => this.#fact([error.message]));
+    });
+    this.#loads = new Latest("api/cam-loads", (loads, asked) => same(asked.study, this.#study.state.cam) && this.#bear(loads), (error) => this.#bear({ panels: [], facts: [error.message] }));
+    this.#sizes = new Latest("api/cam-sizes", ({ facts }, asked) => same(asked.study, this.#study.state.cam) && this.#fact(facts), (error) => this.#fact([error.message]));
     this.#turning(cam.entries);
     this.#motion.cursor.watch((at) => this.#turn(at));
   }
@@ -71,14 +70,13 @@ export class View {
 
   show(state) {
     const axis = this.#kinds.axes[state.cam.follower?.kind] ?? "length";
-    if (axis !== this.#axis) this.#build(axis);
-    this.#form.show(state.cam);
+    this.#form.draw(this.#at.size, axis, state.cam, () => this.#fields(axis));
     this.#programme.show(state);
     this.#cams.ask({ study: state.cam });
   }
 
   #render(answer) {
-    showTrust(this.#at.trust, answer, [], () => {});
+    showTrust(this.#at.trust, answer);
     if (!answer.refused) this.#fact(null);
     this.#answer = answer;
     this.#motion.show(answer);
@@ -101,18 +99,16 @@ export class View {
     if (this.#answer && !this.#answer.refused) this.#motion.show({ ...this.#answer, panels: [...this.#answer.panels, ...panels] });
   }
 
-  #build(axis) {
-    this.#axis = axis;
-    this.#form.clear();
+  #fields(axis) {
     const { entries, drive } = this.#kinds;
     const [follower, forces, spring] = TABLES.map((name) => named(entries, name));
     const sizes = entries.filter(({ name }) => !ELSEWHERE.includes(name) && !TABLES.includes(name));
-    this.#at.size.replaceChildren(
+    return [
       group("Follower", ...this.#form.fields([follower])),
       group("Cam", ...this.#form.fields(sizes)),
       group("Forces", ...this.#form.fields(drive[axis], ["motion", "drive"]), ...this.#form.fields(forces.entries, ["forces"])),
       group("Spring", ...this.#form.fields([spring])),
-    );
+    ];
   }
 
   /** A follower that swings in place of one that slides has another motion, and other forces. */
@@ -125,8 +121,7 @@ export class View {
   }
 
   #turning(entries) {
-    const measure = html("input", { type: "checkbox", checked: true });
-    measure.addEventListener("change", () => this.#mechanism.measure(measure.checked));
+    const measure = html("input", { type: "checkbox", checked: true, onchange: () => this.#mechanism.measure(measure.checked) });
     new Run(this.#at.turning, "Angle of the cam, degrees", this.#motion.cursor);
     this.#at.turning.append(html("label", { class: "switch" }, measure, "dimensions"));
     this.#at.reading.after(explained([...WORDS, ...entries.filter(({ name }) => !ELSEWHERE.includes(name)).map(({ label, about }) => [label, about])]));

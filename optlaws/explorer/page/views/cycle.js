@@ -1,14 +1,12 @@
 // The motion of an axis of the machine in machine units, its segments and its limits.
 
-import { explained } from "../fields.js";
 import { Latest } from "../latest.js";
-import { column, laidOut, panel, status } from "../layout.js";
+import { column, explained, laidOut, panel, status } from "../layout.js";
+import { join } from "../machine_forms.js";
 import { Panels } from "../panels.js";
-import { join } from "../programme.js";
-import { table } from "../report_table.js";
+import { showTrust, table } from "../report.js";
 import { Strip } from "../strip.js";
 import { html } from "../svg.js";
-import { showTrust, unanswered } from "../trust.js";
 import { listed } from "../units.js";
 
 const FIRST = 5; // column of the table that is a peak
@@ -39,7 +37,7 @@ export class View {
     const strip = new Strip({ moved: (i, at) => this.#join(i, at), rested: () => study.rest(), chosen: (i) => this.#motion.look(this.#answer.segments[i].at) });
     this.#motion = new Panels(this.#at.motion, { strip });
     this.#motion.cursor.watch((at) => this.#mark(at));
-    this.#cycles = new Latest("api/cycle", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered(unanswered(error), question));
+    this.#cycles = new Latest("api/cycle", (...answer) => this.#answered(...answer));
     this.#nearest = new Latest("api/cycle-nearest", ({ ways }) => this.#render(this.#answer, ways), () => this.#render(this.#answer, []));
   }
 
@@ -93,5 +91,5 @@ function beside({ beside: known }) {
 
 function segments({ segments: known, table: { headings, rows } }) {
   const beyond = (i, j) => known[i]?.peaks[j - FIRST]?.beyond;
-  return table("Segments with their peaks", headings, rows, (i, j) => (beyond(i, j) ? { class: "over", title: "beyond its limit" } : {}));
+  return table("Segments with their peaks", headings, rows, { look: (i, j) => (beyond(i, j) ? { class: "over", title: "beyond its limit" } : {}) });
 }

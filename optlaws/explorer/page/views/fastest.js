@@ -2,17 +2,15 @@
 // on, and the front of what is least in it, in the middle; on the right the motion, drawn by the limit that is nearest.
 
 import { Chart, spanOf } from "../chart.js";
-import { Form } from "../form.js";
-import { flat } from "../entries.js";
-import { group } from "../fields.js";
+import { Form, choice, flat } from "../form.js";
 import { Latest } from "../latest.js";
-import { column, growing, head, laidOut, panel, part, picture, status } from "../layout.js";
+import { column, group, growing, head, laidOut, panel, part, picture, status } from "../layout.js";
 import { Panels } from "../panels.js";
-import { table } from "../report_table.js";
+import { showTrust, table } from "../report.js";
 import { Strip } from "../strip.js";
-import { html, renew, svg } from "../svg.js";
-import { showTrust, unanswered } from "../trust.js";
+import { html, svg } from "../svg.js";
 import { headed, number, shownUnit, written } from "../units.js";
+import { same } from "../views.js";
 
 const OWN = ["stroke", "start_velocity", "end_velocity", "start"];
 const LONGEST = 2; // times the least, where a front has no end of its own
@@ -27,8 +25,7 @@ export class View {
   #fields;
   #declared;
   #space;
-  #moves; // an example
-  #built = "";
+  #shape = "";
   #paths = [];
   #panels;
   #chart;
@@ -42,22 +39,24 @@ export class View {
     this.#space = space;
     this.#declared = Object.fromEntries(move.map((entry) => [entry.name, entry]));
     this.#study = study;
-    this.form = html("div", {}, group("Least time of", html("select", { id: "fastest-of", "aria-label": "least time of" }, html("option", { value: "", text: "the cycle" }), html("option", { value: "moves", text: "moves of their own" }))), part("fastest-form"));
-    const [of, form] = this.form.querySelectorAll("[id]");
-    this.#at = { of, form, ...laidOut(root,
+    const of = choice("least time of", { "": "the cycle", moves: "moves of their own" }, "", (value) => study.change("least time of", (state) => {
+      delete state.time;
+      if (value) state.fastest = structuredClone(examples.moves);
+      else delete state.fastest;
+    }));
+    this.form = html("div", {}, group("Least time of", of), html("div"));
+    this.#at = { of, form: this.form.lastElementChild, ...laidOut(root,
       column("fastest-middle", "The least time and what longer times save", status("fastest-trust"), panel("fastest-timing", { class: "panel timing-of-motion" }),
         growing(head(part("fastest-objective"), html("p", { id: "fastest-words", class: "quiet" })), picture("fastest-chart")),
         panel("fastest-legend", { role: "group", "aria-label": "Which limit is nearest" })),
       column("fastest-right", "The motion with its limits", panel("fastest-curves"), panel("fastest-table", { class: "panel scrolled", tabindex: "0", role: "group", "aria-label": "What is taken of each limit" })),
     ) };
     this.#fields = new Form((what, alter) => this.#change(what, alter), () => study.rest());
-    this.#moves = examples.moves;
     this.#panels = new Panels(this.#at.curves, { strip: new Strip({ chosen: () => {} }) });
     this.#chart = new Chart(this.#at.chart, (_, value) => (value === null ? study.rest() : this.#give(value / 1000)));
-    this.#answers = new Latest("api/fastest", (answer) => this.#answered(answer), (error) => this.#answered(unanswered(error)));
-    this.#fronts = new Latest("api/fastest-front", (front, question) => JSON.stringify(question) === JSON.stringify(this.#asked) && this.#swept(front), (error) => this.#swept({ points: [], words: error.message }));
+    this.#answers = new Latest("api/fastest", (answer) => this.#answered(answer));
+    this.#fronts = new Latest("api/fastest-front", (front, question) => same(question, this.#asked) && this.#swept(front), (error) => this.#swept({ points: [], words: error.message }));
     this.#timing();
-    this.#choose();
   }
 
   /** The request to the server, of which files are made too. */
@@ -74,7 +73,7 @@ export class View {
     if (moves) this.#form(moves, this.#entries(state));
     const { time: _, ...question } = this.request(state);
     this.#answers.ask(this.request(state));
-    if (JSON.stringify(question) !== JSON.stringify(this.#asked)) {
+    if (!same(question, this.#asked)) {
       this.#asked = question;
       this.#front = null;
       this.#fronts.ask(question);
@@ -104,29 +103,23 @@ export class View {
   }
 
   #form(study, move) {
-    const machine = flat({ mechanism: move.mechanism ?? {}, drive: move.drive ?? {} }).map(([path]) => JSON.stringify(path));
+    const machine = flat({ mechanism: move.mechanism ?? {}, drive: move.drive ?? {} }).map((path) => JSON.stringify(path));
+    // a field that is emptied stays until the move is another one
     const shape = JSON.stringify([study.move.map(({ name }) => name), Boolean(move.drive), this.#number(this.#state)]);
-    if (shape !== this.#built || machine.some((path) => !this.#paths.includes(path))) {
-      this.#built = shape;
-      this.#paths = machine;
-      this.#build(study, move, machine.map((path) => JSON.parse(path)));
-    }
-    this.#fields.show({ ...move, problem: study.problem ?? {} });
+    if (shape !== this.#shape || machine.some((path) => !this.#paths.includes(path))) [this.#shape, this.#paths] = [shape, machine];
+    this.#fields.draw(this.#at.form, [shape, this.#paths], { ...move, problem: study.problem ?? {} }, () => this.#build(study, move, this.#paths.map((path) => JSON.parse(path))));
   }
 
   #build(study, move, machine) {
-    this.#fields.clear();
-    const several = html("select", { "aria-label": "move" }, ...study.move.map(({ name }, i) => html("option", { value: i, text: name })));
-    several.value = this.#number(this.#state);
-    several.addEventListener("change", () => this.#study.change("move", (state) => {
-      state.move = Number(several.value);
+    const several = choice("move", { ...study.move.map(({ name }) => name) }, this.#number(this.#state), (i) => this.#study.change("move", (state) => {
+      state.move = Number(i);
       delete state.time;
     }));
     const { limits, follower, front } = this.#declared;
     const limited = limits.entries.filter(({ name }) => (!name.includes("torque") || move.drive) && (!name.startsWith("residual") || move.follower));
     const fields = (entry, entries = entry.entries) => this.#fields.fields(entries, [entry.name], []);
     const of = (part) => machine.filter(([first]) => first === part).map((path) => this.#fields.field({ path, placeholder: "", label: path.slice(1).join(" ").replaceAll("_", " ") }));
-    const groups = [
+    return [
       group("Move", several, ...this.#fields.fields(OWN.map((name) => this.#declared[name]))),
       group("At most", ...fields(limits, limited)),
       group("Laws", ...this.#fields.fields(this.#space, ["problem"], [])),
@@ -134,7 +127,6 @@ export class View {
       group("What vibrates", ...fields(follower)),
       group("Front", ...fields(front, front.entries.filter(({ name }) => name === "longest"))),
     ];
-    renew(this.#at.form, ...groups);
   }
 
   // --- the time that is given ---
@@ -146,16 +138,6 @@ export class View {
       if (time > least * (1 + 1e-6)) state.time = Number(time.toPrecision(7));
       else delete state.time;
     });
-  }
-
-  /** Whether the least time is that of the machine's cycle or of moves of their own. */
-  #choose() {
-    const { of } = this.#at;
-    of.addEventListener("change", () => this.#study.change("least time of", (state) => {
-      delete state.time;
-      if (of.value) state.fastest = structuredClone(this.#moves);
-      else delete state.fastest;
-    }));
   }
 
   /** One slider of the time, whose stop is the proven least, and beside it the time and the speed as numbers. */
@@ -195,7 +177,7 @@ export class View {
 
   #answered(answer) {
     this.#answer = answer;
-    showTrust(this.#at.trust, answer, [], () => {});
+    showTrust(this.#at.trust, answer);
     this.#draw();
   }
 
@@ -220,13 +202,11 @@ export class View {
   #objective() {
     const { objectives = [], minimise } = this.#answer;
     if (!objectives.length) return [];
-    const choose = html("select", { "aria-label": "what is least in longer times" }, ...(minimise ? [] : [html("option", { value: "", text: "nothing" })]), ...objectives.map((value) => html("option", { value, text: `least ${value}` })));
-    choose.value = minimise ?? "";
-    choose.addEventListener("change", () => this.#change("objective", (move) => {
-      const others = (move.front?.minimise ?? []).filter((name) => name !== choose.value);
-      move.front = { ...move.front, minimise: [choose.value, ...others].slice(0, 6) };
-    }));
-    return [choose];
+    const options = Object.fromEntries([...(minimise ? [] : [["", "nothing"]]), ...objectives.map((value) => [value, `least ${value}`])]);
+    return [choice("what is least in longer times", options, minimise ?? "", (value) => this.#change("objective", (move) => {
+      const others = (move.front?.minimise ?? []).filter((name) => name !== value);
+      move.front = { ...move.front, minimise: [value, ...others].slice(0, 6) };
+    }))];
   }
 
   /** The front over the time, with the times that no law and no law of this space beats. */
@@ -289,5 +269,5 @@ function legend({ shares }) {
 
 function taken({ rows }) {
   const cells = rows.map(({ name, value, text, full }) => [name, value, text && `${text} %${full ? " binds" : ""}`]);
-  return table("What is taken of each limit", ["", "value", "of the limit"], cells, (i, j) => (j === 2 && rows[i].full ? { class: "best" } : {}));
+  return table("What is taken of each limit", ["", "value", "of the limit"], cells, { look: (i, j) => ({ class: j === 2 && rows[i].full ? "best" : null }) });
 }

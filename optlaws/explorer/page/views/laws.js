@@ -3,17 +3,16 @@
 import { askedOf, move } from "../asked.js";
 import { Band } from "../band.js";
 import { Controls } from "../controls.js";
-import { explained, group, slider, tabs } from "../fields.js";
-import { plain } from "../units.js";
-import { Latest } from "../latest.js";
-import { column, growing, head, laidOut, panel, part, picture, status } from "../layout.js";
+import { slider } from "../form.js";
+import { Latest, unanswered } from "../latest.js";
 import { curvesOf } from "../law_curves.js";
+import { column, explained, fragment, group, growing, head, laidOut, panel, part, picture, status, swatch, tabs } from "../layout.js";
 import { Panels } from "../panels.js";
 import { Plane } from "../plane.js";
-import { showTable } from "../table.js";
-import { Tray } from "../tray.js";
-import { showTrust, unanswered } from "../trust.js";
+import { showTrust, table } from "../report.js";
 import { html, svg } from "../svg.js";
+import { Tray } from "../tray.js";
+import { same } from "../views.js";
 
 const PICTURES = { "B-C": "C over B", "B-D": "D over B", "B-J": "J over B", "C-D": "D over C", "J-C": "C over J", residual: "residual" };
 
@@ -27,6 +26,8 @@ const WORDS = () => [
   ["order l", "conditions at each end: order 2 begins and ends at rest, order 3 also without acceleration, order 4 also without jerk"],
   ["degree", "of the free polynomial Z: more of it comes nearer to the best possible and costs jerk"],
 ];
+
+const NAMES = ["B", "C", "D", "J", "rms_c"];
 
 export class View {
   files = ["python", "problem", "law", "table"];
@@ -50,7 +51,6 @@ export class View {
   #chooses;
   #machines;
   #machine = [];
-  #sizes;
   #follower;
   #laws;
   #fronts;
@@ -79,7 +79,6 @@ export class View {
     this.#residual.cursor.watch((at, placed) => placed && at !== null && at !== study.state.frequency && study.change("frequency", (state) => (state.frequency = Number(at.toPrecision(4)))));
     this.#chooses = tabs(this.#at.pictures, PICTURES, (key) => study.change("picture", (state) => (state.picture = key)));
     this.#follower = this.#followerFields();
-    this.#sizes = sizes(this.#at.ask, study);
     this.#machines = new Latest("api/law-machine", ({ rows }) => this.#inUnits(rows), (error) => this.#inUnits(this.#views[this.#state.active]?.refused ? [] : [{ name: error.message, cells: {} }]));
     this.#laws = new Latest("api/laws", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered({ laws: question.laws.map(() => unanswered(error)) }, question));
     this.#fronts = new Latest("api/front", (front) => this.#showFront(front), (error) => this.#withoutFront(error));
@@ -104,8 +103,7 @@ export class View {
     plane.hidden = isResidual;
     residual.hidden = this.#at.follower.hidden = !isResidual;
     this.#chooses(state.picture);
-    this.#controls.show(state.laws[state.active]);
-    this.#sizes(state);
+    this.#controls.show(state);
     const { stroke, time, mass } = state.controller ?? {};
     if (stroke && time) this.#machines.ask({ laws: state.laws, active: state.active, stroke, time, ...(mass && { mass }) });
     else this.#machine = [];
@@ -116,7 +114,7 @@ export class View {
   }
 
   #askLaws(state) {
-    if (JSON.stringify(state.laws) === JSON.stringify(this.#asked) && !this.#laws.behind) this.#render();
+    if (same(state.laws, this.#asked) && !this.#laws.behind) this.#render();
     this.#laws.ask({ laws: state.laws });
   }
 
@@ -129,7 +127,7 @@ export class View {
     // what runs along the front does not change it
     if (law.problem) delete law.problem[over[0]];
     const question = { laws: [law], over };
-    if (JSON.stringify(question) === JSON.stringify(this.#front)) return;
+    if (same(question, this.#front)) return;
     this.#front = question;
     this.#words = "computing the front …";
     this.#at.plane.classList.add("behind");
@@ -176,11 +174,11 @@ export class View {
 
   #inUnits(rows) {
     this.#machine = rows;
-    showTable(this.#at.table, this.#state.laws.map((_, i) => this.#views[i]), this.#state.active, rows);
+    this.#constants();
   }
 
   #near({ ways }, question) {
-    if (JSON.stringify(question.laws) !== JSON.stringify(this.#asked) || question.active !== this.#state.active) return;
+    if (!same(question.laws, this.#asked) || question.active !== this.#state.active) return;
     this.#ways = ways;
     this.#render();
   }
@@ -193,8 +191,13 @@ export class View {
     this.#curves.show(curvesOf(views, active));
     this.#plane.showLaws(laws.map((law, i) => ({ view: views[i], asked: askedOf(law, x), movable: Boolean(law.problem) })), active);
     showTrust(this.#at.trust, views[active], this.#ways, (way) => this.#back(way));
-    showTable(this.#at.table, views, active, this.#machine);
+    this.#constants();
     this.#at.words.textContent = picture === "residual" ? this.#left : this.#words;
+  }
+
+  #constants() {
+    const { laws, active } = this.#state;
+    this.#at.table.replaceChildren(constants(laws.map((_, i) => this.#views[i]), active, this.#machine));
   }
 
   #value(name) {
@@ -232,21 +235,18 @@ export class View {
   }
 }
 
-/** Fields of the machine that a law is for; returns a function that shows a state in them. */
-function sizes(root, study) {
-  const fields = Object.entries({ stroke: "none, or 35 mm", time: "none, or 0.1 s", mass: "none, or 2 kg" }).map(([name, placeholder]) => {
-    const field = html("input", { type: "text", placeholder, maxlength: 60, "aria-label": `${name} of the machine` });
-    field.addEventListener("input", () => study.change(`machine ${name}`, (state) => {
-      const value = plain(field.value.trim());
-      state.controller = { ...state.controller, [name]: value };
-      if (!value) delete state.controller[name];
-      if (!Object.keys(state.controller).length) delete state.controller;
-    }));
-    field.addEventListener("change", () => study.rest());
-    return { name, field };
-  });
-  root.append(group("In machine units", ...fields.map(({ name, field }) => html("label", { class: "entry" }, html("span", { class: "field-name", text: name }), field))));
-  return ({ controller }) => {
-    for (const { name, field } of fields) if (document.activeElement !== field) field.value = controller?.[name] ?? "";
+/** Constants of the laws with the digits that the server gave, and below the active one its rows in the units of a machine. */
+function constants(views, active, machine) {
+  const of = (view, name) => view?.constants?.find((one) => one.name === name);
+  const least = Object.fromEntries(NAMES.map((name) => [name, Math.min(...views.map((view) => of(view, name)?.value ?? Infinity))]));
+  const lines = views.flatMap((view, i) => [{ view, i }, ...(i === active ? machine.map((row) => ({ row })) : [])]);
+  const title = (view) => view?.title ?? view?.refused?.word ?? "…";
+  const row = ({ view, i, row: known }) => (known
+    ? [known.name, ...NAMES.map((name) => known.cells[name] ?? "")]
+    : [fragment(swatch(i), html("span", { class: "row-name", text: title(view), title: title(view) })), ...NAMES.map((name) => of(view, name)?.text ?? "—")]);
+  const look = (k, j) => {
+    const one = of(lines[k].view, NAMES[j - 1]);
+    return lines[k].row ? {} : { "data-constant": NAMES[j - 1], title: one?.k || null, class: views.length > 1 && one && one.value === least[one.name] ? "best" : null };
   };
+  return table("Constants of the laws, dimensionless", ["law", ...NAMES.map((name) => name.replace("_", " "))], lines.map(row), { right: true, look, line: (k) => ({ class: lines[k].row ? "in-units" : lines[k].i === active ? "active" : null }) });
 }

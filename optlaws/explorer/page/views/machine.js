@@ -2,19 +2,18 @@
 // input, and torque, power and speed over the cycle for each law.
 
 import { Chart, spanOf } from "../chart.js";
-import { tabs } from "../fields.js";
 import { Latest } from "../latest.js";
-import { column, growing, head, laidOut, panel, part, picture, status } from "../layout.js";
+import { column, growing, head, laidOut, panel, part, picture, status, swatch, tabs } from "../layout.js";
 import { Linkage } from "../linkage.js";
-import { beside, changeAll } from "../machine_form.js";
+import { beside, changeAll } from "../machine_forms.js";
 import { Panels } from "../panels.js";
-import { table } from "../report_table.js";
+import { showTrust, table } from "../report.js";
 import { Run } from "../run.js";
 import { Strip } from "../strip.js";
-import { chips, standard } from "../tray.js";
 import { html, renew } from "../svg.js";
-import { showTrust, unanswered } from "../trust.js";
+import { chips, standard } from "../tray.js";
 import { headed, number, written } from "../units.js";
+import { same } from "../views.js";
 
 const PICTURES = { speed: "torque over speed", ratio: "over the ratio", input: "J and T" };
 const LEAST = "What no law that never turns back can beat in each move";
@@ -68,10 +67,10 @@ export class View {
     this.#curves = new Panels(made.curves, { strip: new Strip({ chosen: () => {} }) });
     this.#chooses = tabs(made.pictures, PICTURES, (key) => study.change("machine picture", (state) => (state.machinePicture = key)));
     this.#playing();
-    this.#machines = new Latest("api/machine", (answer, question) => this.#solved(answer, question), (error, question) => this.#answered(unanswered(error), question));
+    this.#machines = new Latest("api/machine", (answer, question) => this.#solved(answer, question));
     this.#earlier = new Latest("api/machine", (answer, question) => this.#evaluated(answer, question), () => this.#solve());
     this.#limits = new Latest("api/machine-limits", (answer, question) => this.#isOfNow(question) && this.#bounded(answer), () => this.#bounded({ moves: [] }));
-    this.#ratios = new Latest("api/machine-ratios", (answer, question) => JSON.stringify(question) === JSON.stringify(this.#asked) && this.#swept(answer), (error) => this.#swept({ ratios: [], words: error.message }));
+    this.#ratios = new Latest("api/machine-ratios", (answer, question) => same(question, this.#asked) && this.#swept(answer), (error) => this.#swept({ ratios: [], words: error.message }));
   }
 
   /** The request to the server, of which files are made too. */
@@ -112,7 +111,7 @@ export class View {
     if (!this.#optimum) return null;
     const { answer: { limiting, optima }, question } = this.#optimum;
     const now = { study: state.machine, axis: state.axis };
-    return JSON.stringify(likeness(now)) === JSON.stringify(likeness(question)) && JSON.stringify(driving(now, limiting)) !== JSON.stringify(driving(question, limiting)) ? optima : null;
+    return same(likeness(now), likeness(question)) && !same(driving(now, limiting), driving(question, limiting)) ? optima : null;
   }
 
   #solved(answer, question) {
@@ -131,7 +130,7 @@ export class View {
   }
 
   #isOfNow(question) {
-    return JSON.stringify(question.study) === JSON.stringify(this.#state.machine) && question.axis === this.#state.axis;
+    return same(question.study, this.#state.machine) && question.axis === this.#state.axis;
   }
 
   #answered(answer, question) {
@@ -142,7 +141,7 @@ export class View {
     this.#least = [];
     // while a drag goes on the newest answer alone is looked at closer
     if (!question.laws && !answer.refused && !this.#machines.behind) this.#limits.ask(question);
-    showTrust(this.#at.trust, answer, [], () => {});
+    showTrust(this.#at.trust, answer);
     if (!answer.refused) this.#linkage.show(answer.drawing);
     else this.#linkage.show(null);
     this.#still();
@@ -274,7 +273,7 @@ export class View {
     const study = structuredClone(state.machine);
     for (const one of beside(study, state.axis)) if (one.drive) delete one.drive.ratio;
     const question = { study, axis: state.axis, low: this.#span[0], high: this.#span[1] };
-    if (JSON.stringify(question) === JSON.stringify(this.#asked)) return;
+    if (same(question, this.#asked)) return;
     this.#asked = question;
     this.#over = null;
     this.#due = true;
@@ -361,10 +360,10 @@ function driving({ study, axis }, limiting) {
 }
 
 function driveTable({ rows, active }, names) {
-  const head = html("tr", {}, html("th", { scope: "col", text: "at the drive" }), ...names.slice(0, MOST).map((name, i) => html("th", { scope: "col", class: "number", title: name }, html("span", { class: `swatch law-${i}`, text: "ABCD"[i] }))));
-  const body = rows.map(({ name, unit, values, over }) => html(
-    "tr", {}, html("th", { scope: "row", text: headed(name, unit), title: name }),
-    ...values.map((value) => (value === null ? null : number(value, unit))).map((text, i) => html("td", { class: `number${over[i] ? " over" : ""}${i === active ? " active" : ""}`, title: over[i] ? "the motor is too weak" : null, text: text === null ? "—" : over[i] ? `${text} !` : text })),
-  ));
-  return html("table", { "aria-label": "What each law asks of the drive" }, html("thead", {}, head), html("tbody", {}, ...body));
+  const cells = rows.map(({ name, unit, values }) => [headed(name, unit), ...values.map((value) => (value === null ? null : number(value, unit)))]);
+  const look = (i, j) => {
+    const over = rows[i].over[j - 1];
+    return { class: [over && "over", j - 1 === active && "active"].filter(Boolean).join(" "), title: over ? "the motor is too weak" : null };
+  };
+  return table("What each law asks of the drive", ["at the drive", ...names.slice(0, MOST).map((name, i) => swatch(i, name))], cells, { right: true, look });
 }

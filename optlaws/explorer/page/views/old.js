@@ -1,17 +1,15 @@
 // The view of an old cam: its table dropped or chosen, the moves that it holds, and better laws within a tolerance.
 
-import { group, slider } from "../fields.js";
-import { Form } from "../form.js";
+import { fileOf, stateOf, textOf } from "../files.js";
+import { Form, slider } from "../form.js";
 import { Latest } from "../latest.js";
-import { column, laidOut, panel, status } from "../layout.js";
-import { stateOf, textOf } from "../opening.js";
+import { column, group, laidOut, panel, status } from "../layout.js";
 import { Panels } from "../panels.js";
-import { table } from "../report_table.js";
-import { fileOf } from "../saving.js";
+import { checking, showTrust, table } from "../report.js";
 import { Strip } from "../strip.js";
 import { html, renew } from "../svg.js";
-import { checking, showTrust, unanswered } from "../trust.js";
 import { written } from "../units.js";
+import { same } from "../views.js";
 
 const ELSEWHERE = ["text", "file", "within", "speed"];
 
@@ -42,8 +40,8 @@ export class View {
       html("section", { id: "old-curves", class: "panel", "aria-label": "Points and laws over the master" }),
     );
     this.#curves = new Panels(this.#at.curves, { strip: new Strip({ chosen: (i) => this.#curves.look(this.#answer.segments[i].at) }) });
-    this.#tables = new Latest("api/old", (answer, question) => this.#answered(answer, question), (error, question) => this.#answered(unanswered(error), question));
-    this.#better = new Latest("api/old-move", (answer, question) => this.#find(answer, question), (error, question) => this.#find(unanswered(error), question));
+    this.#tables = new Latest("api/old", (...answer) => this.#answered(...answer));
+    this.#better = new Latest("api/old-move", (answer, question) => this.#find(answer, question));
     this.#build(entries);
   }
 
@@ -56,7 +54,7 @@ export class View {
 
   /** The cycle with its better laws, as far as they are found. */
   request({ old }) {
-    const known = this.#asked && JSON.stringify(near(this.#asked)) === JSON.stringify(near(old));
+    const known = this.#asked && same(near(this.#asked), near(old));
     return { study: old, laws: known ? this.#laws : [] };
   }
 
@@ -69,7 +67,7 @@ export class View {
     this.#name.textContent = state.old.file ?? "table";
     this.#fields.show(state.old);
     this.#within?.set(state.old.within ?? this.#answer?.within ?? null);
-    if (JSON.stringify(near(state.old)) !== JSON.stringify(this.#asked && near(this.#asked))) this.#tables.ask({ study: state.old });
+    if (!same(near(state.old), this.#asked && near(this.#asked))) this.#tables.ask({ study: state.old });
     else this.#ask();
   }
 
@@ -79,7 +77,7 @@ export class View {
     if (!laws.length) {
       this.#asked = study;
       this.#found = [];
-      showTrust(this.#at.trust, answer, [], () => {});
+      showTrust(this.#at.trust, answer);
       if (!answer.refused) this.#measure(answer);
     }
     this.#draw();
@@ -99,7 +97,7 @@ export class View {
   }
 
   #find(answer, { study, axis }) {
-    if (JSON.stringify(study) !== JSON.stringify(this.#bounded) || JSON.stringify(near(this.#study.state.old)) !== JSON.stringify(near(this.#asked))) return;
+    if (!same(study, this.#bounded) || !same(near(this.#study.state.old), near(this.#asked))) return;
     this.#found[axis] = answer;
     this.#draw();
     if (answer.law) this.#tables.ask({ study, laws: this.#laws });

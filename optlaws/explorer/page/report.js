@@ -1,10 +1,10 @@
-// How far the active law can be trusted, in words; or why there is none, and how far one must go back. A click on "check this
-// proof" is an event of its own, which the page answers.
+// Reports in words and tables: how far a law can be trusted, or why there is none and how far one must go back. A click on
+// "check this proof" is an event of its own, which the page answers.
 
 import { html, renew } from "./svg.js";
-import { listed, plain, written } from "./units.js";
+import { headed, listed, number, plain, written } from "./units.js";
 
-export function showTrust(root, view, ways, go) {
+export function showTrust(root, view, ways = [], go = () => {}) {
   marked(root, view?.refused ? written(view.refused.reason) : "");
   root.classList.toggle("none", Boolean(view?.refused));
   if (!view) renew(root);
@@ -46,7 +46,21 @@ function refusal({ word, reason, tried }, ways, go) {
   return found;
 }
 
-/** The view of what has no answer: what was shown before is of another question. */
-export function unanswered(error, title = "") {
-  return { title, refused: { word: "no answer", reason: error.message, tried: "" } };
+/** A table whose headings are "name, unit" or elements, and whose cells are numbers in the unit of their column, quantities,
+    texts, elements, or null; the first one of a row is its heading. `look(i, j)` are further attributes of a cell, `line(i)` of a
+    row; columns of numbers and quantities stand on the right, and all of them where `right` says so. */
+export function table(name, headings, rows, { look = () => ({}), line = () => ({}), right: all = false, ...attributes } = {}) {
+  const units = headings.map((heading) => (typeof heading === "string" ? heading.split(", ")[1] ?? "" : ""));
+  const shown = (heading, i) => (units[i] ? headed(heading.split(", ")[0], units[i]) : heading);
+  const isNumber = (value) => value === null || typeof value === "number" || (typeof value === "object" && !Array.isArray(value) && !(value instanceof Node));
+  const right = headings.map((_, j) => (j > 0 && (all || rows.every((row) => isNumber(row[j]))) ? "number" : null));
+  const head = headings.map((heading, j) => html("th", { scope: "col", class: right[j] }, shown(heading, j)));
+  const cell = (value, i, j) => {
+    const own = look(i, j);
+    if (value instanceof Node) return html("td", own, value);
+    const text = value === null ? "—" : typeof value === "number" ? number(value, units[j]) : value;
+    return html("td", { title: text, ...own, class: [right[j], own.class].filter(Boolean).join(" ") || null, text });
+  };
+  const body = rows.map(([title, ...cells], i) => html("tr", line(i), title instanceof Node ? html("th", { scope: "row" }, title) : html("th", { scope: "row", title, text: title }), ...cells.map((value, j) => cell(value, i, j + 1))));
+  return html("table", { "aria-label": name, ...attributes }, html("thead", {}, html("tr", {}, ...head)), html("tbody", {}, ...body));
 }
