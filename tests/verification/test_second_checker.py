@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from flint import arb_mat, ctx
-from hypothesis import example, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from optlaws import (
@@ -348,20 +348,29 @@ def test_a_raised_bound_is_refused(tmp_path: Path) -> None:
         assert not all(result["verdict"] == "proven" for result in raised), path
 
 
-@settings(max_examples=3)
-@example(B=1.6919579422228668, degree=7)  # rounding decided which of the last two nodes leaves no box
-@given(B=st.floats(1.3, 2.6), degree=st.sampled_from([3, 5, 7]))
-def test_the_least_power_by_boxes_is_proven_there_too(B: float, degree: int) -> None:
-    from tempfile import TemporaryDirectory
-
-    solution = synthesize(Problem(B=B, order=3, basis=Chebyshev(degree), minimise="D"), bound="tight")
+def _by_boxes(problem: Problem, folder: Path) -> None:
+    solution = synthesize(problem, bound="tight")
     if solution.power_certificate is None:
         return
-    with TemporaryDirectory() as folder:
-        results = checked(solution.power_certificate.to_dict(), Path(folder))
-        assert [result["verdict"] for result in results] == ["proven"]
-        above = solution.power_certificate.to_dict() | {"claim": solution.objective * 1.001, "bound": None}
-        assert [result["verdict"] for result in checked(above, Path(folder))] == ["not proven"]
+    proof = solution.power_certificate.to_dict()
+    assert [result["verdict"] for result in checked(proof, folder)] == ["proven"]
+    above = proof | {"claim": solution.objective * (1.0 + 1e-6), "bound": None}
+    assert [result["verdict"] for result in checked(above, folder)] == ["not proven"]
+
+
+@settings(max_examples=3, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@example(B=1.6919579422228668, degree=7)  # rounding decided which of the last two nodes leaves no box
+@given(B=st.floats(1.3, 2.6), degree=st.sampled_from([3, 5, 7]))
+def test_the_least_power_by_boxes_is_proven_there_too(tmp_path: Path, B: float, degree: int) -> None:
+    _by_boxes(Problem(B=B, order=3, basis=Chebyshev(degree), minimise="D"), tmp_path)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("B", "degree", "minimise"), [(1.641, 9, "D"), (None, 5, "0.6*C/4 + 0.4*D/2.25")])
+def test_proofs_of_many_boxes_and_of_mixtures_are_proven_there_too(
+    B: float | None, degree: int, minimise: str, tmp_path: Path
+) -> None:
+    _by_boxes(Problem(B=B, order=4, basis=Chebyshev(degree), minimise=minimise), tmp_path)
 
 
 @pytest.mark.long
