@@ -1,24 +1,43 @@
-"""Least times and trapezoids of others: laws that keep the limits in their time, and none in less."""
+"""Least times, trapezoids, torques, constants and timing diagrams of others."""
 
+from collections.abc import Callable
 from fractions import Fraction
+from math import pi
 from typing import Any
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
+from numpy.typing import NDArray
+from scipy.optimize import brentq
 
 from optlaws import (
     BoundaryConditions,
+    Chebyshev,
+    Cycle,
+    Dwell,
+    Follower,
+    Functional,
     InfeasibleProblem,
+    InputError,
     Pieces,
     Problem,
+    Return,
+    Rise,
     at_most,
+    catalogue,
+    drive_torque,
     fastest,
     law_from_z,
     limit,
+    peak,
+    rms,
+    shaped_law,
+    smoothstep,
     synthesize,
     trapezoid,
 )
-from tests.external.published import cases
+from tests.external.published import cases, numbers
 from tests.internals.synthesis import LimitSegments, MoveLimits, segment_times
 
 NAMES = ("velocity", "acceleration", "jerk")
@@ -116,3 +135,133 @@ def test_the_smoothest_laws_are_the_quintics_of_least_jerk(case: dict[str, Any])
     for nu in range(4):
         ours = np.asarray(law(at / time, nu)) * stroke / time**nu + (case["start"][0] if nu == 0 else 0.0)
         assert ours == pytest.approx(theirs.deriv(nu)(at) if nu else theirs(at), abs=1e-9)
+
+
+# --- torques ---
+
+
+@pytest.mark.parametrize("name", ["peak", "rms"])
+def test_torque_under_a_load_is_above_its_infimum(name: str) -> None:
+    """The least over all monotone laws with B and C bounded is convex in b² over a, and was computed so."""
+    case = numbers()["loads"]
+    torque = drive_torque(inertia="1", load="3*a")
+    functional: Functional = {"peak": peak, "rms": rms}[name](torque)
+    B, C = at_most(case["B"]), at_most(case["C"])
+    problem = Problem(order=3, basis=Chebyshev(11), symmetric=False, monotone=True, minimise=functional, B=B, C=C)
+    solution = synthesize(problem)
+    assert solution.status == "optimal"
+    assert case[name] <= solution.objective < 1.06 * case[name]
+
+
+# --- timing diagrams ---
+
+
+def test_a_die_that_moves_while_its_table_does_needs_a_fifth_of_the_acceleration() -> None:
+    """Its ways within the table and its dwell fill the time for which the table rests."""
+    case, law = numbers()["timing_diagram"], catalogue["cycloidal"].law
+    assert law(0.1) == pytest.approx(case["share_at_a_tenth"], abs=5e-5)
+    enters = brentq(lambda k: float(law(k)) - case["above"] / 50, 0.0, 1.0)
+    rest = 360 - case["table"]
+    longest = (rest - 100) / (2 * (1 - enters))
+
+    def acceleration(way: float) -> float:
+        angle = f"{way} deg"
+        moves = [Rise("50 mm", angle, law="cycloidal"), Dwell("100 deg"), Return("50 mm", angle, law="cycloidal")]
+        return Cycle([*moves, Dwell()], speed="60 rpm").peak(2)
+
+    assert rest == 100 + 2 * case["way"]
+    assert acceleration(case["way"]) / acceleration(longest) == pytest.approx(case["gain"], rel=0.04)
+
+
+# --- standard laws ---
+
+
+Array = NDArray[np.float64]
+
+
+@pytest.mark.parametrize("case", cases("constants"))
+def test_constants_in_tables_of_others(case: dict[str, Any]) -> None:
+    constants = catalogue[case["law"]].law.constants
+    for name in "BCDJ":
+        # the jerk of a law with impulses is that of its print without them
+        if name in case and np.isfinite(getattr(constants, name).value):
+            assert getattr(constants, name).value == pytest.approx(case[name], rel=case["rtol"]), name
+    if "rms_c" in case:
+        assert constants.rms_c == pytest.approx(case["rms_c"], rel=case["rtol"])
+
+
+def test_peaks_of_the_polynomial_of_least_jerk() -> None:
+    case, law = numbers()["minimum_jerk"], catalogue["3-4-5"].law
+    assert law.constants.B.value == pytest.approx(case["B"], rel=1e-14)
+    assert law.constants.C.value == pytest.approx(case["C"], abs=5e-3)
+    assert law.constants.C.k == pytest.approx((3 - 3**0.5) / 6, abs=1e-12)
+    assert law.constants.J.value == pytest.approx(case["J"], rel=1e-14)
+    assert law.j(0.5) == pytest.approx(case["middle"], rel=1e-13)
+
+
+@pytest.mark.parametrize("case", cases("exercise"), ids=lambda case: f"{case['law']} {case['stroke']}")
+def test_exercises_of_textbooks(case: dict[str, Any]) -> None:
+    """Rise, dwell and return by one law, with the peaks of both moves as printed; m/s, m/s²."""
+    (rise, fall), law, stroke = case["angles"], case["law"], case["stroke"]
+    moves = [Rise(stroke, rise, law=law), Dwell("30 deg"), Return(stroke, fall, law=law), Dwell()]
+    peaks = Cycle(moves, speed=case["speed"]).peaks
+    assert_allclose([peaks[0].peak(2), peaks[2].peak(2)], case["accelerations"], rtol=1e-3)
+    if "velocities" in case:
+        assert_allclose([peaks[0].peak(1), peaks[2].peak(1)], case["velocities"], atol=7e-3)
+
+
+def _sine(x: Array) -> Array:
+    early = 0.43990085 * x - 0.0350062 * np.sin(4 * pi * x)
+    later = 0.28004957 + 0.43990085 * x - 0.31505577 * np.cos(4 * pi * x / 3 - pi / 6)
+    return np.where(x <= 1 / 8, early, later)
+
+
+def _trapezoid(x: Array) -> Array:
+    early = 0.38898448 * x - 0.0309544 * np.sin(4 * pi * x)
+    plateau = 2.44406184 * x**2 - 0.22203097 * x + 0.00723407
+    later = 1.6110154 * x - 0.0309544 * np.sin(4 * pi * x - pi) - 0.3055077
+    return np.select([x <= 1 / 8, x <= 3 / 8], [early, plateau], later)
+
+
+@pytest.mark.parametrize(
+    ("name", "theirs", "stop"), [("modified sine", _sine, 7 / 8), ("modified trapezoid", _trapezoid, 1 / 2)]
+)
+def test_coefficients_of_saltire(name: str, theirs: Callable[[Array], Array], stop: float) -> None:
+    """The page saltire.com/CamDesign/Cam%20Functions.html, to the eight digits that it prints."""
+    places = np.linspace(0.0, stop, 201)
+    assert_allclose(catalogue[name].law(places), theirs(places), atol=2e-8)
+
+
+# --- shapers ---
+
+
+FREQUENCY = 60.0
+#: by how many per cent of the frequency a band may be wider than its table says, in round numbers
+COARSE = 12
+
+
+def left(case: dict[str, Any], damping: float, per_cent: float) -> float:
+    """What a shaped law leaves beside what the law alone leaves, as fast as it runs within the shaped one."""
+    law, nu = smoothstep(3), FREQUENCY * (1.0 + per_cent / 100.0)
+    shaped = shaped_law(law, FREQUENCY, damping, case["name"])
+    period = 2.0 * np.pi / (FREQUENCY * (1.0 - damping**2) ** 0.5)
+    alone = Follower(nu * (1.0 - case["duration"] * period), damping).response(law)
+    return Follower(nu, damping).response(shaped).residual_displacement / alone.residual_displacement
+
+
+@pytest.mark.parametrize("case", cases("shapers"), ids=lambda case: case["name"])
+def test_shapers_leave_as_little_and_take_as_long_as_their_table_says(case: dict[str, Any]) -> None:
+    for band, share in (("five", 0.05), ("ten", 0.10)):
+        if band in case:
+            low, high = case[band]
+            assert max(left(case, case["damping"], off) for off in np.linspace(low, high, 13)) <= share
+            assert min(left(case, case["damping"], off) for off in (low - COARSE, high + COARSE)) > share
+    with pytest.raises(InputError, match=f"takes {case['duration']:g} of a period"):
+        shaped_law(smoothstep(3), 2.0 * np.pi * case["duration"], 0.0, case["name"])
+
+
+@pytest.mark.parametrize("case", cases("insensitivity"), ids=lambda case: case["name"])
+def test_extra_insensitive_shapers_are_as_wide_as_their_authors_say(case: dict[str, Any]) -> None:
+    half = 50.0 * (case["width"] - 0.006)  # printed to two digits
+    assert max(left(case, 0.0, off) for off in np.linspace(-half, half, 17)) <= 0.0501
+    assert min(left(case, 0.0, off) for off in (-half - 3.0, half + 3.0)) > 0.05

@@ -1,15 +1,17 @@
-"""Writing results: whole or not at all, never over what a user made or changed; tables give the same bytes."""
+"""Writing results: whole or not at all, never over what a user made; what two files say; printed numbers."""
 
 import json
+import math
 import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from optlaws import InputError
-from optlaws.results import Results
+from optlaws.results import MISPRINT, ON_GRID, REPRODUCED, Results, compared, number, rows
 from tests.files.concurrent_writing import outcomes
-from tests.internals.files import tables, writing
+from tests.internals.files import say_the_same, tables, writing
 from tests.internals.plots import empty_figure, plot_style, save_picture
 
 MINE = f"# {writing.MARK}\n"
@@ -196,3 +198,189 @@ def test_no_two_files_of_a_result_have_one_name(tmp_path: Path, twin: str) -> No
     results.text("slide.csv", MINE, "axis slide: its table")
     with pytest.raises(InputError, match=r"axis b: export: another file is called slide\.csv, axis slide: its table: "):
         results.add(twin, Path, "axis b: export")
+
+
+# --- what two files say ---
+
+
+LAW: dict[str, Any] = {
+    "status": "optimal",
+    "objective": 5.57,
+    "best_possible": None,
+    "constants": {"B": {"value": 1.53, "k": 0.5}},
+    "gap": "1e-10",
+    "z": [1e6, 1.0],
+    "starts": [5.57, 5.58],
+    "certificate": {"program": "linear", "bound": 5.57, "contacts": [{"k": 0.1, "multiplier": 1.0}]},
+}
+
+
+@pytest.mark.parametrize(
+    ("change", "same"),
+    [
+        ({"objective": 5.57 * (1 + 1e-9)}, True),
+        ({"objective": 5.57 * (1 + 2e-8)}, False),
+        ({"objective": None}, False),
+        ({"status": "local"}, False),
+        ({"best_possible": 0.0}, False),
+        ({"more": 1}, False),
+        # the place of a smooth peak, not its size
+        ({"constants": {"B": {"value": 1.53, "k": 0.5 + 1e-7}}}, True),
+        ({"constants": {"B": {"value": 1.53 + 1e-7, "k": 0.5}}}, False),
+        ({"gap": "1e-9"}, True),
+        ({"gap": "1e-7"}, False),
+        # in the scale of the list
+        ({"z": [1e6, 1.001]}, True),
+        ({"z": [1e6, 1.1]}, False),
+        ({"z": [1e6, 1.0, 0.0]}, False),
+        ({"starts": [5.57]}, True),
+        # what a proof proves, not how
+        ({"certificate": {"program": "linear", "bound": 5.57, "contacts": []}}, True),
+        ({"certificate": {"program": "linear", "bound": 5.5, "contacts": []}}, False),
+        ({"certificate": {"program": "conic", "bound": 5.57, "contacts": []}}, False),
+    ],
+)
+def test_json(change: dict[str, Any], *, same: bool) -> None:
+    first, second = (json.dumps(data).encode() for data in (LAW, LAW | change))
+    assert say_the_same(first, second, ".json") is same
+    assert say_the_same(second, first, ".json") is same
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "same"),
+    [
+        ("| C |\n|---|\n| 5.572139 |", "| C   |\n|-----|\n| 5.57214 |", True),
+        ("C = 5.572139", "C = 5.572140", True),
+        ("C = 5.572139", "C = 5.572141", False),
+        # few digits are meant so
+        ("C = 5.57", "C = 5.58", False),
+        ("row 103456", "row 103457", False),
+        ("gap 1e-10", "gap 1e-9", True),
+        ("gap 1e-8", "gap 1e-7", False),
+        ("C = 5.572139", "D = 5.572139", False),
+        ("C = 5.572139", "C = 5.572139 or so", False),
+        ("law 0307a1.234567", "law 0307a1.234568", False),
+    ],
+)
+def test_tables(first: str, second: str, *, same: bool) -> None:
+    for kind in (".csv", ".md"):
+        assert say_the_same(first.encode(), second.encode(), kind) is same
+    assert not say_the_same(first.encode(), second.encode(), ".txt")
+
+
+def test_pictures() -> None:
+    line = '<path id="p{0}" d="M {1} 2" style="opacity: {2}; stroke: #{3}"/><use href="#p{0}"/>'
+    drawn = line.format("0123456789", "201.214027", 0.3, "1e5000")
+    for parts, same in (
+        (("abcdef0123", "201.214027", 0.3, "1e5000"), True),
+        (("0123456789", "201.24", 0.3, "1e5000"), True),
+        (("0123456789", "201.294027", 0.3, "1e5000"), False),
+        (("0123456789", "201.214027", 0.32, "1e5000"), False),
+        (("0123456789", "201.214027", 0.3, "1e5001"), False),
+    ):
+        assert say_the_same(drawn.encode(), line.format(*parts).encode(), ".svg") is same
+    assert not say_the_same(
+        drawn.encode(), drawn.replace('href="#p0123456789"', 'href="#p0000000000"').encode(), ".svg"
+    )
+
+
+def test_fewer_digits_may_mean_something() -> None:
+    tables = [f"| 0510 | 3 | {C} |".encode() for C in ("9.82783", "9.82776", "9.8348")]
+    assert say_the_same(tables[0], tables[1], ".md", digits=4)
+    assert not say_the_same(tables[0], tables[1], ".md")
+    assert not say_the_same(tables[0], tables[2], ".md", digits=4)
+    assert say_the_same(b'{"C": 9.82783}', b'{"C": 9.82776}', ".json", digits=4)
+
+
+def test_what_cannot_be_read_is_not_the_same() -> None:
+    for kind in (".json", ".csv", ".svg"):
+        assert not say_the_same(b"\xff", b"{}", kind)
+    assert not say_the_same(b"{", b"{}", ".json")
+
+
+@pytest.mark.parametrize(
+    ("other", "same"),
+    [
+        ("M 1 2 \nL 5 6 \nL 5 9 \n", True),
+        ("M 1 2 \nL 3.02 4 \nL 4 5 \nL 5 6 \nL 5 9 \n", True),
+        ("M 1 2 \nL 3.2 4 \nL 5 6 \nL 5 9 \n", False),
+        ("M 1 2 \nL 3 4 \nL 5 6 \n", False),
+    ],
+)
+def test_a_line_may_have_more_places_on_its_way(other: str, *, same: bool) -> None:
+    line, other = (f'<path d="{path}" class="line"/>' for path in ("M 1 2 \nL 3 4 \nL 5 6 \nL 5 9 \n", other))
+    assert say_the_same(line.encode(), other.encode(), ".svg") is same
+    assert say_the_same(other.encode(), line.encode(), ".svg") is same
+
+
+# --- printed numbers ---
+
+
+@pytest.mark.parametrize(
+    ("text", "exact", "on_grid", "verdict"),
+    [
+        ("5.92", 5.919541667, 5.916132213, REPRODUCED),  # rounded
+        ("1.53", 1.5299999999, None, REPRODUCED),
+        ("9.34", 9.344999, None, REPRODUCED),
+        ("9.34", 9.345001, None, "reproduced to 0.05 %"),
+        ("6.83", 6.837463633, 6.831965392, ON_GRID),  # rounded on the grid
+        ("5.91", 5.919584792, 5.913136526, ON_GRID),
+        ("9.34", 9.3489, 9.3499, ON_GRID),  # cut on the grid
+        ("9.34", 9.3489, None, "reproduced to 0.1 %"),  # an exact peak is rounded, never cut
+        ("9.34", 9.36, 9.3501, "reproduced to 0.21 %"),
+        ("6.062", 6.0603773, 6.059645748, "reproduced to 0.03 %"),
+        ("6.07", 6.10624117, 6.101606364, "reproduced to 0.6 %"),
+        ("10.52", 10.35193717, 10.34168796, "reproduced to 1.6 %"),
+        ("4", 4.6, None, "reproduced to 15 %"),
+        ("4", 4.4, None, REPRODUCED),
+    ],
+)
+def test_a_verdict_follows_from_the_digits(text: str, exact: float, on_grid: float | None, verdict: str) -> None:
+    found = compared("row", "C", text, exact, on_grid=on_grid, misprint=None)
+    assert found.verdict == verdict
+    assert (found.row, found.quantity, found.printed, found.exact, found.on_grid) == ("row", "C", text, exact, on_grid)
+    assert bool(found.reason) == (verdict == ON_GRID)
+
+
+@pytest.mark.parametrize("exact", [10.35, 10.52])
+def test_a_misprint_is_called_one_with_its_reason(exact: float) -> None:
+    found = compared("2.6", "C", "10.52", exact, on_grid=10.34, misprint="a digit")
+    assert (found.verdict, found.reason) == (MISPRINT, "a digit")
+
+
+@pytest.mark.parametrize("text", ["", "x", "nan", "inf", "-inf", "1,5", "1.5.2"])
+def test_what_is_no_number_is_refused(text: str) -> None:
+    with pytest.raises(InputError, match=r"table\.csv: .* is not a number"):
+        number(text, "table.csv")
+
+
+@pytest.mark.parametrize(("text", "value"), [("1.53", 1.53), (" 2 ", 2.0), ("-1e-3", -0.001)])
+def test_numbers_are_read(text: str, value: float) -> None:
+    assert math.isclose(number(text, ""), value)
+
+
+def test_rows_skip_comments_and_blank_lines(tmp_path: Path) -> None:
+    file = tmp_path / "data.csv"
+    file.write_text('# source\n\nB,C\n# remark\n1.5,"6, exactly"\n', "utf-8")
+    assert [dict(row) for row in rows(file, ("B", "C"))] == [{"B": "1.5", "C": "6, exactly"}]
+
+
+@pytest.mark.parametrize("content", ["B;C\n1;2\n", "C,B\n1,2\n", "", "# only a comment\n"])
+def test_other_columns_are_refused(tmp_path: Path, content: str) -> None:
+    file = tmp_path / "data.csv"
+    file.write_text(content, "utf-8")
+    with pytest.raises(InputError, match="must have the columns B, C"):
+        rows(file, ("B", "C"))
+
+
+@pytest.mark.parametrize("line", ["1.5", "1.5,6,7"])
+def test_a_row_with_too_few_or_too_many_cells_is_refused(tmp_path: Path, line: str) -> None:
+    file = tmp_path / "data.csv"
+    file.write_text(f"B,C\n{line}\n", "utf-8")
+    with pytest.raises(InputError, match=r"data\.csv"):
+        rows(file, ("B", "C"))
+
+
+def test_a_missing_file_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="cannot read the printed data"):
+        rows(tmp_path / "none.csv", ("B",))

@@ -1,17 +1,21 @@
-"""Rules that the public names of optlaws.laws and optlaws.errors keep."""
+"""Rules that the public names of optlaws.laws and optlaws.errors keep, and constants as values."""
 
 import inspect
 import pickle
 import subprocess
 import sys
+from dataclasses import FrozenInstanceError
 
+import numpy as np
 import pytest
 
 from optlaws import (
+    Constants,
     InfeasibleProblem,
     InputError,
     MotionLaw,
     OptlawsError,
+    Peak,
     PolynomialLaw,
     SolverFailure,
     errors,
@@ -91,3 +95,21 @@ def test_errors_are_one_tree() -> None:
             continue
         assert issubclass(member, OptlawsError | Warning | KeyboardInterrupt), name
         assert ">>>" in (inspect.getdoc(member) or "")
+
+
+# --- constants ---
+
+
+def test_peaks_are_values() -> None:
+    one, again = (Constants(Peak(1.0, 0.1), Peak(2.0, 0.2), Peak(3.0, 0.3), Peak(4.0, 0.4), 2.0) for _ in range(2))
+    assert {one: one.B}[again] == Peak(1.0, 0.1)
+    with pytest.raises(FrozenInstanceError):
+        one.rms_c = 3.0  # type: ignore[misc]
+
+
+def test_constants_as_plain_data() -> None:
+    constants = Constants(Peak(1.0, 0.1), Peak(2.0, 0.2), Peak(3.0, 0.3), Peak(np.inf, 0.4), np.inf)
+    plain = {"B": {"value": 1.0, "k": 0.1}, "C": {"value": 2.0, "k": 0.2}, "D": {"value": 3.0, "k": 0.3}}
+    assert constants.to_dict(rms=False) == plain | {"J": {"value": None, "k": 0.4}}
+    assert constants.to_dict() == plain | {"J": {"value": None, "k": 0.4}, "rms_c": None}
+    assert Constants(constants.B, constants.C, constants.D, constants.J, 2.5).to_dict(rms=True)["rms_c"] == 2.5

@@ -1,6 +1,8 @@
-"""Laws whose residual vibration is small over a whole interval of frequencies."""
+"""Residual vibration that is small over frequencies or weighed by a measured spectrum: greatest values and proofs."""
 
 import json
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,12 +22,16 @@ from optlaws import (
     at_most,
     catalogue,
     polydyne,
+    read_spectrum,
     residual_phasor,
     residual_vibration,
     savin,
+    smoothstep,
     synthesize,
 )
 from optlaws.verification import verify
+from tests.internals.mechanisms import above
+from tests.internals.synthesis import few_families
 from tests.mechanisms.cam_programs import integrated, least_acceleration, residuals
 from tests.sampling import examples
 
@@ -241,3 +247,227 @@ def test_a_law_that_no_cam_can_make_is_refused() -> None:
         synthesize(Problem(order=3, bounds={residual_vibration(frequency=(18, 22), design=20): at_most(0.1)}))
     with pytest.raises(InputError, match="rest to rest"):
         synthesize(Problem(order=1, bounds={residual_vibration(frequency=(18, 22)): at_most(0.1)}))
+
+
+# --- measured spectra ---
+
+
+SPECTRUM = ((16.0, 0.2), (18.0, 1.0), (19.0, 0.4), (22.0, 0.9), (24.0, 0.0), (26.0, 0.0), (27.0, 0.3))
+
+
+def weighed(law: object, nu: np.ndarray, damping: float) -> np.ndarray:
+    weights = np.interp(nu, *np.array(SPECTRUM).T)
+    return np.asarray(weights * nu**2 * np.abs(residual_phasor(law, nu, damping)))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.03])
+def test_the_greatest_is_that_of_many_frequencies(damping: float) -> None:
+    law, nu = smoothstep(4), np.linspace(16.0, 27.0, 110_001)
+    peak = residual_vibration(spectrum=SPECTRUM, damping=damping).peak(law)
+    many = weighed(law, nu, damping)
+    assert peak.value == pytest.approx(many.max(), rel=1e-7)
+    assert peak.value >= many.max() * (1.0 - 1e-12)
+    assert peak.k == pytest.approx(nu[many.argmax()], abs=1e-3)
+
+
+@pytest.mark.long
+def test_a_law_within_a_weighed_residual_is_proven_over_the_whole_band() -> None:
+    limit = residual_vibration(spectrum=SPECTRUM, damping=0.02)
+    problem = Problem(order=3, basis=Chebyshev(9), bounds={limit: at_most(0.1)})
+    solution = synthesize(problem)
+    assert solution.status.value == "optimal"
+    assert weighed(solution.law, np.linspace(16.0, 27.0, 11_001), 0.02).max() == pytest.approx(0.1, rel=1e-6)
+    checked = verify(solution.to_dict())
+    assert "\nproven      optimal: the proven gap" in str(checked)
+    assert f"\nproven      {limit.name} at most" in str(checked)
+    assert Problem.from_dict(problem.to_dict()) == problem
+    # what claims to leave less, or to keep to a heavier weight, is refused
+    data = solution.to_dict()
+    for name, most in ((limit.name, 0.099), (limit.name.replace("18.0:1.0", "18.0:1.1"), 0.1)):
+        data["problem"]["bounds"] = {name: [None, most]}
+        assert "\nnot proven" in str(verify(data))
+
+
+def test_a_weight_that_is_even_is_a_scale_in_however_many_parts() -> None:
+    plain = synthesize(
+        Problem(order=3, basis=Chebyshev(7), bounds={residual_vibration(frequency=(16, 22)): at_most(0.1)})
+    )
+    for nu in ((16.0, 22.0), (16.0, 17.5, 19.0, 22.0)):
+        even = residual_vibration(spectrum=[(x, 3.0) for x in nu])
+        solution = synthesize(Problem(order=3, basis=Chebyshev(7), bounds={even: at_most(0.3)}))
+        assert solution.status.value == "optimal"
+        assert solution.objective == pytest.approx(plain.objective, rel=1e-9)
+    part = residual_vibration(spectrum=SPECTRUM, frequency=(18.0, 19.0))
+    assert part.value(smoothstep(4)) <= residual_vibration(spectrum=SPECTRUM).value(smoothstep(4))
+
+
+def test_the_least_weighed_residual_is_proven() -> None:
+    solution = synthesize(
+        Problem(order=3, basis=Chebyshev(7), minimise=residual_vibration(spectrum=SPECTRUM), B=at_most(2), C=at_most(7))
+    )
+    assert solution.status.value == "optimal"
+    assert "\nproven      optimal: the proven gap" in str(verify(solution.to_dict()))
+
+
+def test_a_spectrum_is_read_from_a_file_and_covered_by_fewer_points(tmp_path: Path) -> None:
+    file = tmp_path / "shaker.csv"
+    hertz = np.linspace(20.0, 60.0, 801)
+    sizes = 1.0 / np.abs(1.0 - (hertz / 33.0) ** 2 + 0.08j * hertz / 33.0)
+    rows = "\n".join(f"{f:.2f};{a:.6f}".replace(".", ",") for f, a in zip(hertz, sizes, strict=True))
+    file.write_text(f"frequency Hz;amplitude\n{rows}\n")
+    assert np.array(read_spectrum(file, duration="100 ms")) == pytest.approx(
+        np.column_stack([0.2 * np.pi * hertz, np.round(sizes, 6)])
+    )
+    nu, amplitude = np.array(read_spectrum(file, duration="100 ms", points=25)).T
+    assert len(nu) == 25
+    assert nu[[0, -1]] == pytest.approx(0.2 * np.pi * hertz[[0, -1]])
+    assert (np.interp(0.2 * np.pi * hertz, nu, amplitude) >= np.round(sizes, 6) - 1e-12).all()
+    named = Problem(order=3, basis=Chebyshev(5), bounds={f"residual(spectrum='{{{file}}}', duration=0.1)": (0, 1)})
+    assert "spectrum='{12.566" in str(named)
+    assert above([1.0, 2.0], [1.0, 2.0], 5) == ((1.0, 1.0), (2.0, 2.0))
+
+
+@pytest.mark.parametrize(
+    ("spectrum", "says"),
+    [
+        ([(18, 1.0)], "two frequencies at least"),
+        ([(20, 1.0), (18, 1.0)], "increasing"),
+        ([(0, 1.0), (18, 1.0)], "above 0"),
+        ([(18, -1.0), (20, 1.0)], "at least 0"),
+        ([(18, 0.0), (20, 0.0)], "one is above"),
+        ([(18, 1.0, 2.0), (20, 1.0)], "pairs"),
+        (7, "pairs"),
+        ("{18: one, 20: 1}", "as text"),
+        ([(x, 1.0) for x in range(1, 20_002)], "20000 points at most"),
+        ("{gone.csv}", "cannot read gone.csv"),
+        ([(18, float("nan")), (20, 1.0)], "amplitude"),
+    ],
+)
+def test_what_is_no_spectrum_is_refused(spectrum: object, says: str) -> None:
+    with pytest.raises(InputError, match=says):
+        residual_vibration(spectrum=spectrum)
+
+
+def test_what_does_not_go_together_is_refused() -> None:
+    with pytest.raises(InputError, match="needs a frequency"):
+        residual_vibration()
+    with pytest.raises(InputError, match="known from 16 to 27, and the frequencies are 10 to 20"):
+        residual_vibration(spectrum=SPECTRUM, frequency=(10, 20))
+    with pytest.raises(InputError, match="of a spectrum in Hz"):
+        residual_vibration(frequency=18, duration="1 s")
+
+
+@pytest.mark.parametrize("line", range(6))
+def test_damaged_lines_are_refused_with_their_file(line: int, tmp_path: Path) -> None:
+    lines = ["Hz,amplitude", "30,0.2", "31,0.5", "32,1.0", "33,0.5", "35,0.3"]
+    file = tmp_path / "shaker.csv"
+    file.write_text("\n".join([*lines[:line], "what,is this", *lines[line + 1 :]]))
+    if line in {0, 1, 5}:  # a heading, or below the last numbers
+        assert len(read_spectrum(file)) in {4, 5}
+        return
+    with pytest.raises(InputError, match=rf"shaker\.csv, line {line + 1}: a point is two numbers"):
+        read_spectrum(file)
+
+
+@pytest.mark.sample(9)
+@pytest.mark.parametrize("points", [9, 33, 65])
+@pytest.mark.parametrize("size", [1e-12, 1.0, 1e9])
+def test_few_points_are_above_and_near_what_was_measured(points: int, size: float) -> None:
+    nu = np.linspace(5.0, 54.5, 400)
+    sizes = size / (1.0 + ((nu - 20.0) / 3.0) ** 2)
+    covered = above(nu, sizes, points)
+    assert len(covered) == points
+    over = np.interp(nu, *np.array(covered).T) - sizes
+    assert over.min() >= -1e-12 * size
+    assert over.max() <= 10.0 * size / points**2
+    law = synthesize(Problem(order=4, B=1.7)).law
+    dense = np.linspace(5.0, 54.5, 200_001)
+    known = (dense**2 * np.abs(residual_phasor(law, dense)) * np.interp(dense, nu, sizes)).max()
+    found = residual_vibration(spectrum=covered).value(law)
+    assert known * (1.0 - 1e-9) <= found <= known * (1.0 + 12.0 / points**2)
+
+
+def measured(seed: int, points: int, size: float = 1.0, *, noise: float = 0.1) -> np.ndarray:
+    """Six resonances and noise, at places that are not even, as pairs of a frequency and an amplitude."""
+    numbers = np.random.default_rng(seed)
+    nu = 5.0 + 55.0 * np.sort(numbers.uniform(size=points)) ** numbers.uniform(0.7, 1.5)
+    sizes = np.full(points, 0.01)
+    for centre, width, height in zip(
+        numbers.uniform(6, 58, 6), numbers.uniform(0.3, 2, 6), numbers.uniform(0.3, 1, 6), strict=True
+    ):
+        sizes += height / (1.0 + ((nu - centre) / width) ** 2)
+    return np.column_stack([nu, size * sizes * np.exp(noise * numbers.normal(size=points))])
+
+
+def residual_by_quadrature(c: Callable[[np.ndarray], np.ndarray], nu: np.ndarray, damping: float) -> np.ndarray:
+    """The envelope that a law from rest to rest leaves, as an acceleration, by Gauss's rule in each tenth of k."""
+    x, weights = np.polynomial.legendre.leggauss(24)
+    k = (np.arange(10)[:, None] + 0.5 * (1.0 + x)).ravel() / 10.0
+    root = -damping + 1j * np.sqrt(1.0 - damping**2)
+    waves = np.exp(root * nu[:, None] * (1.0 - k))
+    moved = np.abs(waves @ (np.tile(weights / 20.0, 10) * c(k)))
+    return np.asarray(nu * moved / np.sqrt(1.0 - damping**2))
+
+
+@pytest.mark.sample(3)
+@pytest.mark.parametrize(("points", "size"), [(60, 1e-9), (300, 1e9), (1000, 1e-3), (2000, 1.0), (5000, 1e6)])
+@pytest.mark.parametrize("damping", [0.0, 0.03])
+def test_the_greatest_is_that_of_the_whole_table(points: int, size: float, damping: float) -> None:
+    law = synthesize(Problem(order=4, B=1.7)).law
+    for seed in range(1 + 1000 // points):
+        pairs = measured(seed, points, size)
+        peak = residual_vibration(spectrum=pairs, damping=damping).peak(law)
+        shares = np.linspace(0.0, 1.0, max(4, 4000 // points))
+        dense = (pairs[:-1, :1] + shares * np.diff(pairs[:, :1], axis=0)).ravel()
+        amplitudes = residual_by_quadrature(lambda k: law(k, 2), dense, damping)
+        known = (np.interp(dense, *pairs.T) * amplitudes).max()
+        assert known * (1.0 - 1e-12) <= peak.value <= known * (1.0 + 1e-3)
+        there = np.array([peak.k])
+        at_peak = np.interp(there, *pairs.T) * residual_by_quadrature(lambda k: law(k, 2), there, damping)
+        assert peak.value == pytest.approx(float(at_peak[0]), rel=1e-11)
+
+
+@pytest.mark.parametrize("minimise", [True, False])
+def test_of_many_rows_those_that_bind_give_the_optimum_of_all(
+    monkeypatch: pytest.MonkeyPatch, *, minimise: bool
+) -> None:
+    for seed, size in ((0, 1.0), (1, 1e-9), (2, 1e9)):
+        limit = residual_vibration(spectrum=measured(seed, 120, size), damping=0.02)
+        if minimise:
+            problem = Problem(order=3, basis=Chebyshev(7), minimise=limit, B=at_most(2), C=at_most(7))
+        else:
+            problem = Problem(order=3, basis=Chebyshev(7), bounds={limit: at_most(0.5 * limit.value(smoothstep(4)))})
+        best = synthesize(problem)
+        assert best.status.value == "optimal"
+        assert best.gap <= 1e-9
+        with monkeypatch.context() as patch:
+            patch.setattr(few_families, "_MANY", 10_000)
+            assert synthesize(problem).objective == pytest.approx(best.objective, rel=1e-9)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("points", "size"), [(100, 1e9), (700, 1e-9), (2000, 1.0)])
+def test_an_optimum_of_a_whole_table_is_proven_from_its_file(points: int, size: float) -> None:
+    pairs = measured(points, points, size)
+    limit = residual_vibration(spectrum=pairs, damping=0.02)
+    most = 0.5 * limit.value(smoothstep(4))
+    solution = synthesize(Problem(order=3, basis=Chebyshev(9), bounds={limit: at_most(most)}, symmetric=False))
+    dense = np.interp(np.arange(0, points - 1, 0.05), np.arange(points), pairs[:, 0])
+    weighed_by_table = np.interp(dense, *pairs.T) * residual_by_quadrature(lambda k: solution.law(k, 2), dense, 0.02)
+    assert 0.999 * most <= weighed_by_table.max() <= most * (1.0 + 1e-9)
+    data = solution.to_dict()
+    assert "\nproven      optimal: the proven gap" in str(verify(data))
+    name = data["problem"]["bounds"].popitem()[0]
+    data["problem"]["bounds"] = {name: [None, 0.99 * most]}
+    assert "\nnot proven" in str(verify(data))
+
+
+def test_a_long_spectrum_does_not_fill_a_message() -> None:
+    limit = residual_vibration(spectrum=measured(0, 500), damping=0.02)
+    with pytest.raises(InfeasibleProblem) as refused:
+        synthesize(Problem(order=3, basis=Chebyshev(5), bounds={limit: at_most(1e-3)}))
+    assert "has residual weighed by a spectrum of 500 points, nu from 5.11115 to 59.8826 <= 0.001. A" in str(
+        refused.value
+    )
+    assert len(refused.value.args[0] + refused.value.tried) < 500
+    assert "at frequency = " in refused.value.tried

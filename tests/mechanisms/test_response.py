@@ -1,11 +1,16 @@
-"""The follower's response: against DOP853, against 120 digits, and what every response must obey."""
+"""The follower's response: against DOP853 and 120 digits, free, steady under a cycle, and with units."""
 
+import itertools
+from typing import Any
+
+import mpmath as mp  # type: ignore[import-untyped]
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from optlaws import (
+    CycleResponse,
     Follower,
     InputError,
     Machine,
@@ -13,13 +18,19 @@ from optlaws import (
     PiecewiseLaw,
     PolynomialLaw,
     catalogue,
+    driving_law,
+    dwell_mechanism,
+    mass_law,
+    off_design,
+    polydyne,
     residual_phasor,
     savin,
     smoothstep,
 )
 from tests.internals.laws import PolynomialSegment
+from tests.internals.mechanisms import Oscillator
 from tests.laws.examples import EXAMPLES, cut, cut_power, cut_sine, random_law
-from tests.mechanisms.response_cases import CRITICAL, Case, exact, integrated, random_case
+from tests.mechanisms.response_cases import CRITICAL, Case, exact, exact_cycle, integrated, random_case
 from tests.sampling import examples
 
 K = np.linspace(0.0, 1.0, 41)
@@ -253,3 +264,232 @@ def test_a_machine_is_a_dimensionless_follower() -> None:
 def test_nonsense_is_refused(call: object, says: str) -> None:
     with pytest.raises(InputError, match=says):
         call()  # type: ignore[operator]
+
+
+# --- steady motion under a cycle ---
+
+
+SHORT = st.one_of(st.just(0.0), st.floats(0.01, 2.0))
+
+
+def transient(one: CycleResponse, periods: int) -> np.ndarray:
+    """State of the mass after whole cycles from rest, each part by a response of its own."""
+    state = (0.0, 0.0)
+    parts = [
+        (one.rise, 1.0, 0.0, 1.0),
+        (PolynomialLaw([], a0=1.0), one.dwell, 0.0, 1.0),
+        (one.fall, one.fall_duration, 1.0, -1.0),
+        (PolynomialLaw([]), one.rest, 0.0, 1.0),
+    ]
+    for _, (law, duration, a0, sign) in itertools.product(range(periods), parts):
+        if duration:
+            follower = Follower(one.frequency * duration, one.damping)
+            initial = (sign * (state[0] - a0), sign * state[1] * duration)
+            a, b = follower.response(law, initial=initial).final
+            state = (a0 + sign * a, sign * b / duration)
+    return np.array(state)
+
+
+@settings(max_examples=15)
+@given(st.floats(8.0, 80.0), st.floats(0.1, 1.5), SHORT, SHORT, st.floats(0.3, 2.0))
+def test_a_transient_settles_to_the_cycle(nu: float, damping: float, dwell: float, rest: float, fall: float) -> None:
+    steady = Follower(nu, damping).cycle(savin("III", 7.2), smoothstep(3), dwell=dwell, fall_duration=fall, rest=rest)
+    slowest = nu * (damping if damping < 1 else damping - (damping**2 - 1) ** 0.5)
+    periods = int(30.0 / (slowest * steady.period)) + 1
+    assert [steady.a(0.0), steady.b(0.0) / nu] == pytest.approx(
+        (transient(steady, periods) / [1.0, nu]).tolist(), abs=1e-10
+    )
+
+
+@examples(25)
+@given(st.integers(0, 500), st.floats(2.0, 80.0), st.floats(1e-6, 1.5), st.floats(0.0, 2.0), st.floats(0.0, 2.0))
+def test_it_is_periodic_and_obeys_the_equation(seed: int, nu: float, damping: float, dwell: float, rest: float) -> None:
+    law = random_case(2 * seed + 1).law
+    steady = Follower(nu, damping).cycle(law, dwell=dwell, rest=rest)
+    k = np.linspace(0.0, steady.period, 24, endpoint=False) + 1e-3
+    a, b, c = (steady(k, order) for order in range(3))
+    place = np.select([k < 1, k < 1 + dwell, k < 2 + dwell], [k, 1.0, 1.0 - (k - 1 - dwell)], 0.0)
+    falling = (k >= 1 + dwell) & (k < 2 + dwell)
+    run = law.a(np.clip(np.where(falling, k - 1 - dwell, place), 0.0, 1.0))
+    cam = np.where(falling, law.a(1.0) - run, run)
+    size = max(float(np.abs(a).max()), float(np.abs(cam).max()))
+    assert c + 2 * damping * nu * b + nu**2 * a == pytest.approx(nu**2 * cam, abs=1e-11 * nu**2 * size)
+    assert steady(k + steady.period) == pytest.approx(a, abs=1e-9 * size)
+    assert steady(-1e-12) == pytest.approx(steady(0.0), abs=1e-9 * size)
+    assert steady.peak(0).value >= np.abs(a).max() - 1e-12 * size
+
+
+@pytest.mark.sample(3)
+@pytest.mark.parametrize(
+    ("nu", "damping"), [(0.5, 0.3), (20.0, 0.0), (20.0, 0.05), (200.0, 0.01), (60.0, 1.0), (90.0, 2.0)]
+)
+@pytest.mark.parametrize("law", [smoothstep(3), savin("IV", 11.0)], ids=["S3", "IV"])
+def test_a_cycle_to_a_dozen_digits(law: PolynomialLaw, nu: float, damping: float) -> None:
+    pauses = (0.375, 0.8125)
+    steady = Follower(nu, damping).cycle(law, dwell=pauses[0], rest=pauses[1])
+    for k in (0.0, 0.29, 1.2, 1.71, 2.9):
+        expected = exact_cycle(law, nu, damping, pauses, k)
+        for order, value in enumerate(expected):
+            size = max(1.0, law.constants.C.value * max(nu, 8.0) ** (order - 2))
+            assert steady(k, order) == pytest.approx(value, abs=2e-13 * size), (k, order)
+
+
+def test_a_cycle_of_a_polydyne_cam_at_rest_leaves_nothing() -> None:
+    law = savin("IV", 11.0)
+    steady = Follower(20.0, 0.05).cycle(polydyne(law, 20, 0.05), dwell=0.4, rest=0.7)
+    k = np.linspace(0.0, 1.0, 21)
+    assert steady.a(k) == pytest.approx(law.a(k), abs=1e-12)
+    # the return runs the cam's law, so the mass runs the mass law
+    assert steady.a(1.4 + k) == pytest.approx(1.0 - law.a(k), abs=1e-12)
+    assert steady.peak(2).value == pytest.approx(law.constants.C.value, rel=1e-9)
+
+
+def test_repeating_makes_a_residual_worse_near_resonance() -> None:
+    law = catalogue["simple harmonic"].law
+    period = 3.0
+    resonant = Follower(frequency=2 * np.pi * 9 / period, damping=0.002)
+    once, again = resonant.response(law), resonant.cycle(law, dwell=0.5, rest=0.5)
+    assert again.peak(2).value > 1.5 * once.peak(2).value
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        ({"dwell": -0.1}, "dwell must be at least 0"),
+        ({"fall_duration": 0.0}, "fall_duration must be above 0"),
+        ({"rest": float("nan")}, "rest must be a finite real number"),
+        ({"fall": PolynomialLaw.from_powers([0, 0, 1.5])}, "fall must lead back over the rise's stroke 1, but has 1.5"),
+    ],
+)
+def test_cycles_that_make_no_sense_are_refused(change: dict[str, float], says: str) -> None:
+    with pytest.raises(InputError, match=says):
+        Follower(20.0, 0.1).cycle(smoothstep(4), **{"dwell": 0.5, "rest": 0.5, **change})  # type: ignore[arg-type]
+
+
+def test_an_undamped_cycle_in_resonance_has_no_steady_motion() -> None:
+    with pytest.raises(InputError, match="in resonance"):
+        Follower(frequency=4 * np.pi).cycle(smoothstep(4), dwell=0.5, rest=0.5)
+    assert Follower(frequency=4 * np.pi, damping=1e-3).cycle(smoothstep(4), dwell=0.5, rest=0.5).period == 3.0
+
+
+# --- free vibration ---
+
+
+NEAR_ONE = [1.0, 1.0 - 1e-15, 1.0 + 1e-15, 1.0 - 1e-9, 1.0 + 1e-9, 1.0 - 1e-4, 1.0 + 1e-4]
+NEAR_CRITICAL = st.one_of(st.sampled_from([0.0, *NEAR_ONE]), st.floats(0.0, 1.5))
+#: a share of 1e-13 of a state must itself be a normal number
+STATES = st.floats(-1.0, 1.0).map(lambda state: state if abs(state) > 1e-280 else 0.0)
+
+
+def by_exponential(nu: float, damping: float, h0: float, v0: float, s: float) -> tuple[float, float]:
+    """Displacement and velocity at s, from the matrix exponential to 60 digits."""
+    with mp.workdps(60):
+        matrix = mp.matrix([[0, 1], [-(mp.mpf(nu) ** 2), -2 * mp.mpf(damping) * mp.mpf(nu)]])
+        found = mp.expm(matrix * mp.mpf(s)) * mp.matrix([h0, v0])
+        return float(found[0]), float(found[1])
+
+
+@given(st.floats(0.1, 60.0), NEAR_CRITICAL, STATES, STATES, st.floats(0.0, 1.0))
+def test_motion_is_the_matrix_exponential(nu: float, damping: float, h0: float, speed: float, s: float) -> None:
+    one, v0 = Oscillator(nu, damping), speed * nu
+    found = [float(one.motion(h0, v0, np.array([s]), order)[0]) for order in (0, 1)]
+    expected = by_exponential(nu, damping, h0, v0, s)
+    size = abs(h0) + abs(speed)
+    assert found[0] == pytest.approx(expected[0], abs=1e-13 * size)
+    assert found[1] == pytest.approx(expected[1], abs=1e-13 * size * nu)
+
+
+@given(st.floats(0.5, 30.0), NEAR_CRITICAL, st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), st.integers(0, 3))
+def test_no_later_value_exceeds_the_peak(nu: float, damping: float, h0: float, speed: float, order: int) -> None:
+    one, v0 = Oscillator(nu, damping), speed * nu
+    peak = one.peak(h0, v0, order)
+    s = np.linspace(0.0, 20.0 / nu, 4001)
+    size = np.abs(one.motion(h0, v0, s, order))
+    scale = (abs(h0) + abs(speed)) * nu**order
+    assert peak.value >= size.max() - 1e-12 * scale
+    assert peak.value <= size.max() + 1e-4 * scale
+    at_peak = abs(float(one.motion(h0, v0, np.array([peak.k]), order)[0]))
+    assert at_peak == pytest.approx(peak.value, abs=1e-12 * scale)
+
+
+@given(st.floats(0.5, 60.0), st.floats(0.0, 0.99), st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))
+def test_the_envelope_touches_the_motion(nu: float, damping: float, h0: float, speed: float) -> None:
+    one, v0 = Oscillator(nu, damping), speed * nu
+    s = np.linspace(0.0, 2 * np.pi / one.damped, 2001)
+    envelope = one.amplitude(h0, v0) * np.exp(-one.n * s)
+    size = np.abs(one.motion(h0, v0, s, 0))
+    assert (size <= envelope * (1 + 1e-9) + 1e-15).all()
+    assert (size >= envelope * (1 - 1e-5) - 1e-15).any()
+
+
+# --- units ---
+
+
+OSCILLATOR = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
+TIMES = {"speed": "105 rpm", "rise": "120 deg"}
+
+
+def test_answers_are_those_of_the_follower_in_units() -> None:
+    follower = Follower.from_vibration("16.7 Hz", **TIMES, damping=0.05)
+    assert follower == Follower.from_vibration(f"{1 / 16.7!r} s", **TIMES, damping=0.05)
+    same = Follower.from_speed(speed_rpm=105, rise_angle_deg=120, natural_period=1 / 16.7, damping=0.05)
+    assert follower.frequency == pytest.approx(same.frequency, rel=1e-14)
+    response = follower.response(catalogue["modified sine"].law)
+    answers = response.in_units("35 mm", **TIMES)
+    time = answers["time, s"]
+    assert time == pytest.approx(120 / 360 * 60 / 105, rel=1e-14)
+    size = 0.035 / time**2
+    assert answers == pytest.approx(
+        {
+            "stroke, m": 0.035,
+            "time, s": time,
+            "dynamic factor": response.dynamic_factor(),
+            "peak velocity, m/s": 0.035 / time * response.peak(1).value,
+            "peak acceleration, m/s²": size * response.peak(2).value,
+            "acceleration in the dwell, m/s²": size * response.dwell_peak(2).value,
+            "residual displacement, m": 0.035 * response.residual_displacement,
+            "residual acceleration, m/s²": size * response.residual_acceleration,
+        },
+        rel=1e-14,
+    )
+    turning = response.in_units("20 deg", duration="0.2 s")
+    assert (turning["stroke, rad"], turning["time, s"]) == pytest.approx((0.349065850, 0.2))
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"vibration": "16.7"}, "vibration must be a frequency such as .* without a unit"),
+        ({"vibration": "0 Hz"}, "vibration must be above 0"),
+        ({"vibration": "3 kg"}, "vibration must be a frequency"),
+        ({"duration": "1 s"}, "give duration"),
+        ({"rise": None}, "give duration"),
+        ({"speed": "3 Hz"}, "is a frequency"),
+    ],
+)
+def test_what_is_wrong_is_said(changed: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        Follower.from_vibration(**{"vibration": "16.7 Hz", **TIMES, **changed})
+
+
+def test_a_stroke_is_a_length_or_an_angle() -> None:
+    with pytest.raises(InputError, match="stroke must be a length"):
+        Follower(20).response(catalogue["modified sine"].law).in_units("35 kg", duration="1 s")
+
+
+def test_entries_of_the_catalogue_stand_for_their_laws() -> None:
+    entry = catalogue["4-5-6-7"]
+    assert Follower(20).response(entry) == Follower(20).response(entry.law)  # type: ignore[arg-type] # what people give
+    cam = polydyne(entry, 20)  # type: ignore[arg-type]
+    assert cam == polydyne(entry.law, 20)
+    assert mass_law(entry, 20) == mass_law(entry.law, 20)  # type: ignore[arg-type]
+    assert off_design(cam, entry, Follower(20))[0].dynamic_factor > 1  # type: ignore[arg-type]
+    assert driving_law(OSCILLATOR, entry) == driving_law(OSCILLATOR, entry.law)  # type: ignore[arg-type]
+    angles = {"dwell": 1.5, "rise": 1.5, "swing": 0.3, "radius_ratio": 1.0, "inertia_ratio": 0.1}
+    assert dwell_mechanism("I", law=entry, **angles) == dwell_mechanism("I", law=entry.law, **angles)  # type: ignore[arg-type]
+
+
+def test_the_dimensionless_frequency_refuses_hertz_with_the_remedy() -> None:
+    wrong: Any = "20 Hz"
+    with pytest.raises(InputError, match=r"frequency is dimensionless, .* got '20 Hz': .*Follower\.from_vibration"):
+        Follower(wrong)

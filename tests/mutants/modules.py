@@ -12,7 +12,7 @@ NUMERICS = ("tests/numerics", *LAWS)
 TESTS: dict[str, tuple[str, ...]] = {
     "optlaws.synthesis.program.evaluation": (
         "tests/synthesis/program/test_evaluation.py",
-        "tests/synthesis/program/test_agreement.py",
+        "tests/synthesis/program/test_evaluation.py",
     ),
     "optlaws.numerics.peaks": ("tests/numerics/test_peaks.py", "tests/laws/test_exactness.py"),
     "optlaws.synthesis.proof.certificate": (*BOUNDS, "tests/synthesis/proof/test_peaks.py"),
@@ -21,7 +21,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "optlaws.synthesis.proof.power.box": (
         "tests/synthesis/proof/power/test_certificate_by_hand.py",
         "tests/synthesis/proof/power/test_certificate.py",
-        "tests/synthesis/proof/power/test_shared_energy.py::test_no_law_in_a_box_breaks_a_row",
+        "tests/synthesis/proof/power/test_boxes.py::test_no_law_in_a_box_breaks_a_row",
     ),
     "optlaws.verification.exact.bound": (
         "tests/verification/exact/test_bound_by_hand.py",

@@ -1,21 +1,33 @@
-"""Enclosures: narrow bumps, kinks, random functions against samples and closed forms; arithmetic against mpmath."""
+"""Enclosures: narrow bumps, kinks, random functions and polynomials against samples and closed forms."""
 
 from collections.abc import Callable
+from fractions import Fraction
+from math import comb
 
 import mpmath  # type: ignore[import-untyped] # ships no types
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from optlaws import SolverFailure
-from tests.internals.numerics import Interval, Jet, bearing, between, dot, exact, variable
+from optlaws import InputError, SolverFailure
+from tests.internals.numerics import (
+    Interval,
+    Jet,
+    bearing,
+    bernstein,
+    between,
+    dot,
+    exact,
+    greatest_difference,
+    nodes,
+    variable,
+)
 from tests.internals.numerics import extremes_of_branch_and_bound as extremes
 from tests.internals.numerics import integral_of_integral as integral
 
 Array = NDArray[np.float64]
 Plain = Callable[[Array], Array]
 Enclosed = Callable[[Interval, int], Jet]
-
 EDGES = np.array([0.0, 1.0, 2.5, 6.0])
 
 
@@ -193,3 +205,42 @@ def test_of_extremes_as_high_as_one_another_the_first_is_named_however_cells_lie
         found = extremes(lambda x, order: ((variable(x, order) + shift) * frequency).waves()[0], edges)  # noqa: B023
         first = (np.pi / 2.0 - shift * frequency) % (2.0 * np.pi) / frequency
         assert found.most_at == pytest.approx(first, abs=1e-6)
+
+
+# --- polynomials ---
+
+
+@pytest.mark.parametrize("degree", [0, 1, 5, 9])
+def test_bernstein_coefficients_are_those_of_the_definition(degree: int) -> None:
+    powers = np.random.default_rng(degree).integers(-9, 9, size=(3, degree + 1)).astype(float)
+    exact = [
+        [
+            float(sum(Fraction(comb(i, n), comb(degree, n)) * int(row[n]) for n in range(i + 1)))
+            for i in range(degree + 1)
+        ]
+        for row in powers
+    ]
+    assert bernstein.from_powers(powers) == pytest.approx(np.array(exact), rel=1e-14, abs=1e-13)
+    u = (nodes(degree + 1) + 1.0) / 2.0
+    values = np.array([np.polynomial.polynomial.polyval(u, row) for row in powers])
+    assert bernstein.from_values(values) == pytest.approx(np.array(exact), rel=0, abs=1e-10)
+
+
+def test_a_top_is_enclosed_and_found_where_it_is() -> None:
+    for place in (0.1234567, 0.5, 1 / 3, 0.999):
+        powers = np.array([[2.0 - place**2, 2.0 * place, -1.0, 0.0], [0.0, 0.0, 0.0, 1.9]])  # 2 - (u - place)²
+        highest = bernstein.top(bernstein.from_powers(powers))
+        assert highest.row == 0
+        assert highest.value == pytest.approx(2.0, rel=0, abs=1e-15)
+        assert highest.u == pytest.approx(place, abs=1e-7)
+
+
+def test_the_greatest_difference_is_that_of_many_digits() -> None:
+    value, x = greatest_difference(np.exp, lambda x: 1.0 + x + x * x / 2.0, np.array([-1.0, 0.3, 1.0]))
+    with mpmath.workdps(30):
+        assert value == pytest.approx(float(mpmath.e - mpmath.mpf(5) / 2), rel=1e-14)
+    assert x == 1.0
+    with pytest.raises(InputError, match=r"not smooth near x = .*: name its breaks"):
+        greatest_difference(np.sign, lambda x: x * 0.0, np.array([-1.0, 0.7]))
+    with pytest.raises(InputError, match="finite values"):
+        greatest_difference(np.abs, lambda x: x + np.inf, np.array([-1.0, 0.7]))

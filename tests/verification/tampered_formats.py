@@ -57,7 +57,7 @@ from optlaws.verification import Verification, verify_all
 from tests.internals.mechanisms import move_limit
 from tests.internals.studies import Serial
 from tests.internals.synthesis import LONG, least_time, limit_of_plane
-from tests.mechanisms.drives.test_move_limit_files import MADE
+from tests.mechanisms.drives.test_move_limits import MADE
 from tests.verification.tampering import SOLUTIONS, Data, Path, changed, overstated, value_at, wrong_constants
 
 #: by how much a number may be off that rounding explains

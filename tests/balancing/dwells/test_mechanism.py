@@ -1,8 +1,9 @@
-"""Dwell mechanisms of types I, II, III: reference tables, the composed motion, what does not fit."""
+"""Dwell mechanisms of types I, II, III: reference tables, the composed motion, and the choice among them."""
 
 import json
 from dataclasses import replace
 from math import degrees, pi, radians
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,8 +11,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from optlaws import InputError, MotionLaw, catalogue, deg, dwell_mechanism, smoothstep
-from tests.internals.balancing import DwellMechanism, DwellType
+from optlaws import (
+    CamForces,
+    DwellMachine,
+    InfeasibleProblem,
+    InputError,
+    MotionLaw,
+    catalogue,
+    compare_dwell_mechanisms,
+    deg,
+    dwell_machine,
+    dwell_mechanism,
+    smoothstep,
+)
+from tests.internals.balancing import DwellMechanism, DwellType, least_dwell
 from tests.laws.examples import free_function_law
 from tests.sampling import examples
 from tests.tables import rows
@@ -255,3 +268,141 @@ def test_what_is_not_given_is_as_what_stands_for_it() -> None:
     assert (made.return_angle, made.lower_dwell) == (1.4, 1.5)
     other = replace(made, kind="II", lower_dwell=0.0)
     assert (other.lower_dwell, other.return_angle) == (0.0, 1.4)
+
+
+# --- the choice of a type ---
+
+
+GIVEN: dict[str, Any] = {"swing": deg(20), "radius_ratio": 0.35 / deg(20), "inertia_ratio": 0.1}
+
+
+def compared(dwell: float, **changed: float) -> str | None:
+    data: dict[str, Any] = {"rise": deg(180 - dwell), "clutch_angle": deg(10), "most_torque": 0.5, **GIVEN, **changed}
+    return compare_dwell_mechanisms(law=K, dwell=deg(dwell), **data).chosen
+
+
+@pytest.mark.parametrize("row", rows("types_thresholds"), ids=lambda row: "-".join(list(row.values())[:4]))
+def test_least_dwells(row: dict[str, str]) -> None:
+    half_turn = row["scenario"] == "A"
+    for kind in ("II", "III"):
+        clutch = deg(float(row["phi_sp"]))
+        mechanism = dwell_mechanism(kind, law=K, dwell=deg(60), rise=deg(90), clutch_angle=clutch, **GIVEN)
+        limit = float(row["b_limit"])
+        if not row[f"dwell_from_{kind}"]:
+            with pytest.raises(InfeasibleProblem, match="no dwell"):
+                least_dwell(mechanism, limit, half_turn=half_turn)
+            continue
+        # the table gives the first quarter of a degree at which b is within the limit
+        angle = degrees(least_dwell(mechanism, limit, half_turn=half_turn))
+        assert -1e-6 <= float(row[f"dwell_from_{kind}"]) - angle <= 0.25 + 1e-6
+
+
+def test_the_choice_goes_from_I_over_III_to_II_as_the_dwell_grows() -> None:
+    assert [compared(dwell) for dwell in (30, 45, 48, 90, 106, 108, 150)] == ["I", "I", "III", "III", "III", "II", "II"]
+
+
+def test_the_choice_depends_on_more_than_the_dwell() -> None:
+    assert compared(90, inertia_ratio=0.01) == "II"
+    assert compared(90, clutch_angle=deg(40)) == "I"
+    assert compared(90, most_size=1.2) is None
+
+
+def test_reasons_are_given() -> None:
+    data: dict[str, Any] = {"rise": deg(120), "clutch_angle": deg(10), **GIVEN}
+    comparison = compare_dwell_mechanisms(law=K, dwell=deg(60), most_torque=0.25, most_size=1.35, **data)
+    assert comparison.reasons["I"].startswith("no: a = 1.39 exceeds 1.35")
+    assert comparison.reasons["III"].startswith("no: b = 0.3 exceeds 0.25")
+    assert comparison.chosen is None
+    unequal = compare_dwell_mechanisms(law=K, dwell=deg(60), lower_dwell=0.0, most_torque=5.0, **data)
+    assert unequal.reasons["I"].startswith("cannot be built: lower_dwell of type I")
+    assert (unequal.chosen, unequal.by_rule) == ("II", "II")
+
+
+def test_a_limit_that_is_reached_is_kept() -> None:
+    data: dict[str, Any] = {"rise": deg(120), "clutch_angle": deg(10), "dwell": deg(60), "law": K, **GIVEN}
+    reached = dwell_mechanism("III", **data)
+    for share, kept in ((1.0 - 1e-12, True), (1.0, True), (1.0 - 1e-6, False)):
+        comparison = compare_dwell_mechanisms(most_torque=share * reached.b, most_size=share * reached.a, **data)
+        assert comparison.reasons["III"].startswith("yes" if kept else "no")
+
+
+def test_wrong_limits_are_refused() -> None:
+    with pytest.raises(InputError, match="most_torque must be positive"):
+        compared(60, most_torque=0.0)
+    with pytest.raises(InputError, match="most_torque must be positive, got '1'"):
+        compared(60, most_torque="1")  # type: ignore[arg-type]
+    with pytest.raises(InputError, match=r"swing must be above 0, got -1\.0"):
+        compared(60, swing=-1.0)
+
+
+# --- torques of a machine ---
+
+
+DATA: dict[str, Any] = {
+    "law": catalogue["3-4-5"].law,
+    "dwell": "90 deg",
+    "rise": "90 deg",
+    "swing": "20 deg",
+    "arm": "100 mm",
+    "prime_radius": "45 mm",
+    "inertia": "0.05 kg m^2",
+    "loader_inertia": "0.005 kg m^2",
+}
+
+
+def machine(kind: DwellType, **arguments: Any) -> DwellMachine:
+    return dwell_machine(kind, **DATA | {"speed": "100 rpm", "clutch_time": "20 ms"} | arguments)
+
+
+def test_the_clutch_s_time_is_an_angle_that_grows_with_the_speed() -> None:
+    # eq. (16): phi_sp = 6 n t_sp degrees
+    for rpm in (60.0, 100.0, 150.0):
+        assert machine("III", speed=f"{rpm} rpm").clutch_angle == pytest.approx(radians(6.0 * rpm * 0.02))
+
+
+@pytest.mark.parametrize("kind", ["I", "II", "III"])
+def test_torques_by_the_paper_s_formulas(kind: DwellType) -> None:
+    model = machine(kind)
+    law, time, gS = DATA["law"], 0.15, radians(20.0)
+    D, C = law.power_peak().value, law.peak(2).value
+    assert model.balanced_torque == pytest.approx(D * 0.05 * gS**2 / (0.5 * pi * time**2))
+    # (22): the same through what the rocker itself takes
+    assert model.balanced_torque == pytest.approx(D * gS * model.driven_torque / (C * 0.5 * pi))
+    assert model.reduction == pytest.approx(model.mechanism.b, rel=1e-9)
+    if kind == "II":
+        g2, ph2 = model.mechanism.S2 * gS, model.mechanism.phi2
+        assert model.residual_torque == pytest.approx(D * 0.005 * g2**2 / (ph2 * (ph2 / model.rate) ** 2))
+        assert model.loader_driven_torque == pytest.approx(C * g2 * 0.005 / (ph2 / model.rate) ** 2)
+        # by eq. (21)
+        assert model.residual_torque == pytest.approx(D * g2 * model.loader_driven_torque / (C * ph2))
+
+
+@pytest.mark.parametrize("kind", ["I", "III"])
+def test_both_cams_on_one_shaft_take_no_torque_but_in_the_dwells(kind: DwellType) -> None:
+    model = machine(kind)
+    cams = model.cams("8 mm", "115 mm")
+    moved = {
+        # the loader's inertia while it is coupled: eq. (2) with the same swing
+        "executive": 0.05,
+        "loader": 0.05 / model.mechanism.loader.Y**2,
+    }
+    angles = np.linspace(0.01, 1.55, 60)
+    speed = f"{model.rate!r} rad/s"
+    torques = [
+        CamForces(cam, speed=speed, drive={"inertia": f"{moved[name]!r} kg m^2"}).shaft_torque(angles)
+        for name, cam in cams.items()
+    ]
+    assert np.abs(torques[0]).max() == pytest.approx(model.balanced_torque, rel=1e-2)
+    # S is the swing of the executive rocker; the loader's way in the rise is that of its law
+    assert np.abs(torques[0] + torques[1]).max() < 1e-9 * model.balanced_torque
+
+
+def test_what_makes_no_turn_or_leaves_no_room_says_so() -> None:
+    with pytest.raises(InputError, match="no cam comes back"):
+        machine("III", dwell="100 deg").cams("8 mm", "115 mm")
+    with pytest.raises(InputError, match="dwell must exceed twice clutch_angle"):
+        machine("III", speed="400 rpm")
+    with pytest.raises(InputError, match="clutch_time must be at least 0"):
+        machine("II", clutch_time="-1 ms")
+    with pytest.raises(InputError, match="loader_inertia must be a moment of inertia"):
+        machine("II", loader_inertia="1 kg")

@@ -1,4 +1,4 @@
-"""Programs of controllers are read back by readers of their own, and are the motion that the export says they run."""
+"""Programs of controllers are read back by readers of their own, and random motions through them."""
 
 import re
 import shutil
@@ -9,9 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, seed, settings
+from hypothesis import strategies as st
 from scipy.interpolate import PPoly
 
 from optlaws import (
+    BoundaryConditions,
     Chebyshev,
     Cycle,
     Dwell,
@@ -19,11 +22,13 @@ from optlaws import (
     MotionLaw,
     Pieces,
     PiecewiseMotion,
+    Powers,
     Problem,
     Return,
     Rise,
     Solution,
     catalogue,
+    law_from_z,
     smoothstep,
     synthesize,
 )
@@ -32,6 +37,7 @@ from tests.exports.samples import repeating
 from tests.exports.structured_text import Block, parsed
 from tests.internals.exports import FORMATS, export_motion
 from tests.internals.motion import Motion, motion_of_law
+from tests.sampling import examples
 
 READ: dict[str, Callable[[str], PPoly]] = {
     "codesys-cambuilder": readers.cam_builder,
@@ -231,3 +237,42 @@ def test_every_format_of_polynomials_is_listed_with_its_limits() -> None:
     for name in [*READ, "iec-st", "iec-st-real", "c99"]:
         assert FORMATS[name].limits
         assert FORMATS[name].name == name
+
+
+# --- random motions ---
+
+
+STROKES = ("35 mm", "-20 deg", "1200 mm", "7 deg")
+MASTERS = ("120 deg", "360 deg", "90 mm")
+
+
+def random_motion(number: int) -> Motion:
+    """A law of order 3 with a random Z, in random units."""
+    rng = np.random.default_rng(number)
+    z = rng.normal(size=rng.integers(1, 8)).tolist()
+    law = law_from_z(BoundaryConditions.rest(3), z, Powers(len(z) - 1))
+    return motion_of_law(law, stroke=str(rng.choice(STROKES)), master=str(rng.choice(MASTERS)), duration="0.2 s")
+
+
+def comes_back(number: int) -> None:
+    motion = random_motion(number)
+    for name, read in READ.items():
+        made = export_motion(motion, name)
+        same(made.run, read(made.text), 1e-5 if name == "br-acp10" else 1e-10)
+        assert made.report.deviation[0].value <= 1e-2 * motion.stroke
+        assert made.report.ratio(2) <= 1.0 + 2e-3
+
+
+@seed(2026)
+@settings(max_examples=3, deadline=None)
+@given(st.integers(0, 10**6))
+def test_random_motions_come_back(number: int) -> None:
+    comes_back(number)
+
+
+@pytest.mark.long
+@seed(2027)
+@examples(60)
+@given(st.integers(0, 10**6))
+def test_many_random_motions_come_back(number: int) -> None:
+    comes_back(number)

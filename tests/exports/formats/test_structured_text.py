@@ -1,15 +1,18 @@
-"""Function blocks in Structured Text: parsed by a grammar of IEC 61131-3, and evaluated against exact arithmetic."""
+"""Function blocks in Structured Text and templates of programs, as grammars and compilers take them."""
 
 import re
+import subprocess
 from fractions import Fraction
+from itertools import product
 from math import perm
 
 import numpy as np
 import pytest
 
 from optlaws import InputError, Pieces, PiecewiseMotion, Problem, smoothstep, synthesize
+from tests.documents import ROOT
 from tests.exports.motions import random_motion
-from tests.exports.moves import exported
+from tests.exports.moves import COMPILER, STRICT, exported
 from tests.exports.structured_text import Block, parsed, without_comments
 from tests.internals.exports import (
     DOUBLE,
@@ -18,8 +21,10 @@ from tests.internals.exports import (
     Labels,
     as_stored,
     error_bounds,
+    filled,
     function_block,
     real,
+    template,
 )
 
 OUTPUTS = ("position", "velocity", "acceleration", "jerk")
@@ -88,3 +93,56 @@ def test_numbers_are_literals_of_the_standard_and_come_back() -> None:
 def test_what_the_target_refuses_as_a_name_is_refused(name: object) -> None:
     with pytest.raises(InputError, match=r"takes no variable called .*; take '"):
         function_block(PiecewiseMotion([0, 1], [[0, 1]]), name)  # type: ignore[arg-type]
+
+
+# --- templates ---
+
+
+FOLDER = ROOT / "optlaws" / "exports" / "templates"
+NUMBERS: dict[str, object] = {
+    "LAST": 1,
+    "LAST_PIECE": 1,
+    "DEGREE": 3,
+    "COUNT": 2,
+    "BEFORE": 0,
+    "HIGHEST": 1,
+    "AT_FIRST": 0,
+    "AT_LAST": 0,
+}
+NUMBERS |= {"WIDENED": "1.0", "LEAST": "1.0e-30", "MOST": "1.0e30"}
+ARRAYS = ("b[2]", "c[2]", "j[2]", "breaks[3]", "scales[2]")
+
+
+@pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")
+@pytest.mark.parametrize(
+    ("file", "rows", "choice"),
+    [
+        ("motion.h", "coefficients[2][4]", None),
+        ("front.h", "series[2][2]", None),
+        ("front.h", "series[2][2]", "ODD"),
+        ("front.h", "series[2][2][2]", "PIECES"),
+    ],
+)
+def test_a_c_compiler_takes_the_template_itself(file: str, rows: str, choice: str | None) -> None:
+    tables = " ".join(f"static const double name_{array} = {{0}};" for array in (*ARRAYS, rows))
+    defined = {**NUMBERS, "TABLES": tables, **({choice: 1} if choice else {})}
+    command = [str(COMPILER), *STRICT, "-fsyntax-only", *(f"-D{name}={value}" for name, value in defined.items())]
+    subprocess.run([*command, "-x", "c", str(FOLDER / file)], check=True)
+    broken = template(file).replace("return low", "return lower").replace("low -= 1", "lower -= 1")
+    run = subprocess.run([*command, "-x", "c", "-"], input=broken, text=True, capture_output=True, check=False)
+    assert "lower" in run.stderr
+
+
+@pytest.mark.sample(4)
+@pytest.mark.parametrize("choices", [set(some) for some in product(["ODD", ""], ["PIECES", ""])])
+@pytest.mark.parametrize("file", ["motion.st", "front.st", "codesys.st"])
+def test_the_grammar_of_the_standard_takes_the_template_itself(file: str, choices: set[str]) -> None:
+    [block] = parsed(
+        filled(template(file), {"TABLES": ["    widened : LREAL := 1.0;"], "SEGMENTS": [], "COUNT": 1}, choices)
+    ).items
+    assert block.name == "NAME"
+
+
+def test_every_template_is_the_source_of_a_program() -> None:
+    sources = "".join(path.read_text("utf-8") for path in (ROOT / "optlaws" / "exports").rglob("*.py"))
+    assert set(re.findall(r'template\("([\w.]+)"\)', sources)) == {path.name for path in FOLDER.iterdir()}

@@ -1,6 +1,14 @@
-"""Limits of moves in SI units: closed forms, standard laws, motors that are too weak, curves, and their files."""
+"""Limits of moves in SI units: closed forms, standard laws, motors, random drives, and their files."""
 
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from copy import deepcopy
+from dataclasses import replace
+from functools import cache
 from math import exp, inf, nan, pi, sqrt
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -12,6 +20,9 @@ from optlaws import (
     Mechanism,
     Motor,
     MoveLimit,
+    SolverFailure,
+    catalogue,
+    rack,
     slider_crank,
 )
 from optlaws.typing import DriveObjective
@@ -202,3 +213,272 @@ def test_an_energy_is_at_least_the_work_of_the_load(regeneration: float, way: fl
         assert limit.attained == pytest.approx(work, rel=1e-9)
     for law in ("cycloidal", "simple harmonic"):
         assert limit.value <= drive.sheet(law, *move).energy + 1e-9 * abs(work)
+
+
+# --- random drives ---
+
+
+LAWS = ("345", "cycloidal", "modified sine", "modified trapezoid", "simple harmonic", "parabolic")
+KINDS: tuple[DriveObjective, ...] = ("energy", "rms torque", "peak torque", "time")
+#: integration of a sheet, and of the motion that a limit has
+AGREES = 1e-6
+
+
+class RandomMove(NamedTuple):
+    """A drive with a move of it, in units of torque and time; torques are about 1 in these."""
+
+    seed: int
+    torque: float = 1.0
+    time: float = 1.0
+
+    @property
+    def numbers(self) -> np.random.Generator:
+        return np.random.default_rng(self.seed)
+
+    def parts(self) -> tuple[Drive, float, float, float, DriveObjective, float]:
+        draw = self.numbers
+        kind = KINDS[self.seed % len(KINDS)]
+        unit, second = self.torque * 10.0 ** draw.uniform(-9, 9), self.time * 10.0 ** draw.uniform(-3, 3)
+        ratio, stroke = 10.0 ** draw.uniform(-3, 3), draw.choice([-1.0, 1.0]) * 10.0 ** draw.uniform(-1, 1)
+        start = draw.uniform(-3, 3)
+        size = unit * second**2 / abs(stroke) * 10.0 ** draw.uniform(-3, 1)
+        bulge = draw.choice([0.0, draw.uniform(0, 3)])
+        inertia = f"{size:.17g} + {bulge * size:.17g}*sin(x + {draw.uniform(0, 6):.17g})^2"
+        lift, spring = draw.choice([0.0, draw.uniform(-2, 2)]), draw.choice([0.0, draw.uniform(-1, 1)])
+        load = f"{unit * lift:.17g} + {unit * spring / abs(stroke):.17g}*(x - {start:.17g})"
+        wave = draw.choice([0.0, draw.uniform(-1, 1)])
+        coulomb, viscous = (draw.choice([0.0, draw.uniform(0, 0.5)]) for _ in range(2))
+        mechanism = Mechanism(
+            inertia,
+            f"{load} + {unit * wave:.17g}*sin(x)",
+            coulomb=coulomb * unit,
+            viscous=viscous * unit * second / abs(stroke),
+        )
+        motor = Motor(draw.choice([0.0, 0.3]) * size / ratio**2)
+        shares = draw.choice([1.0, draw.uniform(0.5, 1.0)]), draw.choice([1.0, draw.uniform(0.5, 1.0)])
+        drive = Drive(mechanism, motor, ratio, shares, regeneration=float(draw.choice([0.0, 1.0, draw.uniform(0, 1)])))
+        return drive, start, stroke, second, kind, 10.0 ** draw.uniform(0.6, 2.0)
+
+    def limits(self) -> dict[str, Any]:
+        """An acceleration, and perhaps a velocity over a part of the way."""
+        _, start, stroke, second, kind, accelerates = self.parts()
+        known: dict[str, Any] = {"acceleration": accelerates * abs(stroke) / second**2}
+        if self.seed % 3 == 0 and kind != "peak torque":
+            low, high = np.sort(np.random.default_rng(self.seed + 10**6).uniform(0, 1, 2))
+            most = 10.0 ** np.random.default_rng(self.seed).uniform(0.2, 0.8) * abs(stroke) / second
+            known["velocity"] = [(start + low * stroke, start + high * stroke, most)]
+        return known
+
+    def limit(self) -> MoveLimit:
+        drive, start, stroke, second, kind, _ = self.parts()
+        return drive.limit(kind, start, stroke, None if kind == "time" else second, limits=self.limits())
+
+
+def keeps(move: RandomMove, law: str, second: float) -> bool:
+    """Whether a standard law keeps the limits of a move in a time."""
+    _, start, stroke, _, _, _ = move.parts()
+    limits, k = move.limits(), np.linspace(0.0, 1.0, 4001)
+    of = catalogue[law].law
+    if np.max(np.abs(of(k, 2))) * abs(stroke) / second**2 > limits["acceleration"]:
+        return False
+    for first, last, most in limits.get("velocity", ()):
+        low, high = sorted((end - start) / stroke for end in (first, last))
+        a = of(k)
+        within = (a >= low - 1e-3) & (a <= high + 1e-3)
+        if np.any(of(k, 1)[within] * abs(stroke) / second > most):
+            return False
+    return True
+
+
+def own_value(move: RandomMove, law: str) -> tuple[float, float]:
+    """What a law takes, and the size of the numbers whose difference it is."""
+    drive, start, stroke, second, kind, _ = move.parts()
+    sheet = drive.sheet(law, start, stroke, second)
+    if kind == "energy":
+        return sheet.energy, sheet.motoring_energy + sheet.braking_energy
+    value = sheet.peak_torque if kind == "peak torque" else sheet.rms_torque
+    return value, value
+
+
+def check(seed: int) -> str:
+    """The outcome of a random move: what is claimed of it holds."""
+    move = RandomMove(seed)
+    _, _, _, second, kind, _ = move.parts()
+    try:
+        limit = move.limit()
+    except InfeasibleProblem as error:
+        proven = error.proof is not None and not any(keeps(move, law, second) for law in LAWS)
+        return "infeasible" if proven else f"infeasible without a proof, {seed}"
+    except SolverFailure:
+        return "failure"
+    assert limit.attained >= limit.value, (seed, limit.value, limit.attained)
+    assert limit.gap >= 0.0, seed
+    for law in LAWS if kind != "time" else ():
+        if keeps(move, law, second):
+            value, size = own_value(move, law)
+            assert limit.value <= value + AGREES * size, (seed, law, limit.value, value)
+    if kind == "time" and limit.value:
+        fast = [law for law in LAWS if keeps(move, law, limit.value * (1.0 - AGREES))]
+        assert not fast, (seed, fast)
+    if seed % 10 == 0:
+        assert verify(limit.to_dict()).proven, seed
+        other = RandomMove(seed, torque=2.0**20, time=2.0**-10).limit()
+        # the energy is torque times a way without a unit
+        factor = 2.0**-10 if kind == "time" else 2.0**20
+        assert other.value == pytest.approx(limit.value * factor, rel=1e-6), seed
+    return "bound" if limit.value not in {0.0, -np.inf} else "nothing known"
+
+
+@pytest.mark.parametrize(
+    "seed",
+    [3, 4, 586, *(pytest.param(seed, marks=pytest.mark.long) for seed in (*range(3), *range(5, 20), 290, 950))],
+)
+def test_a_random_drive_takes_no_less_than_its_limit(seed: int) -> None:
+    assert check(seed) in {"bound", "infeasible", "nothing known"}
+
+
+@pytest.mark.parametrize(
+    ("seed", "gap"),
+    [
+        (50, 1e-4),
+        *(pytest.param(*case, marks=pytest.mark.long) for case in [(142, 0.5), (274, 1e-3), (348, 0.6), (350, 1e-2)]),
+    ],
+)
+def test_a_bound_and_a_motion_are_known_of_loads_that_help_or_rub(seed: int, gap: float) -> None:
+    limit = RandomMove(seed).limit()
+    assert 0.0 < limit.value <= limit.attained <= limit.value * (1.0 + gap)
+
+
+@pytest.mark.long
+def test_a_thousand_random_drives_take_no_less_than_their_limits() -> None:
+    counts = Counter(check(seed) for seed in range(20, 1020))
+    assert counts.keys() <= {"bound", "infeasible", "nothing known", "failure"}
+    assert counts["failure"] <= 10
+    assert counts["bound"] >= 700
+
+
+# --- files ---
+
+
+MOVE = ("0 deg", "45 deg", "0.25 s")
+
+
+def proof_of(drive: Drive | Mechanism, *move: Any, **options: Any) -> MoveLimit:
+    with pytest.raises(InfeasibleProblem) as caught:
+        drive.limit(*move, **options)
+    assert isinstance(caught.value.proof, MoveLimit)
+    return caught.value.proof
+
+
+MECHANISM = Mechanism("0.8 kg m^2")
+PRESS = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
+WINDOW: dict[str, Any] = {"velocity": [("10 deg", "20 deg", "4 rad/s")]}
+LIFTING = Mechanism("0.8 kg m^2", load="5 N m")
+HEATED: dict[str, Any] = {"limits": {"torque": "60 N m"}, "recovered": 0.5, "heat": 0.1}
+MADE: dict[str, Callable[[], MoveLimit]] = {
+    "peak torque of a drive": lambda: DRIVE.limit("peak torque", *MOVE),
+    "energy of a drive": lambda: DRIVE.limit("energy", *MOVE, limits={"acceleration": "80 rad/s^2"}),
+    "time of a drive": lambda: DRIVE.limit("time", *MOVE[:2]),
+    "rms torque within a window": lambda: MECHANISM.limit("rms torque", *MOVE, limits=WINDOW),
+    "rms torque of a press": lambda: PRESS.limit("rms torque", "0 deg", "180 deg", "0.3 s"),
+    "energy with heat": lambda: MECHANISM.limit("energy", *MOVE, **HEATED),
+    "peak force of a slide": lambda: rack("20 mm", "5 kg").limit("peak torque", "0 rad", "1 rad", "0.5 s"),
+    "proof that the time is short": lambda: proof_of(MECHANISM, "rms torque", *MOVE, limits={"torque": "30 N m"}),
+    "proof that the load is beyond": lambda: proof_of(LIFTING, "time", *MOVE[:2], limits={"torque": "4 N m"}),
+}
+
+
+@cache
+def limit_of(name: str) -> MoveLimit:
+    return MADE[name]()
+
+
+def changed(data: dict[str, Any], path: tuple[Any, ...], value: object) -> dict[str, Any]:
+    other = deepcopy(data)
+    inside: Any = other
+    for key in path[:-1]:
+        inside = inside[key]
+    inside[path[-1]] = value
+    return other
+
+
+def noticed(data: dict[str, Any]) -> bool:
+    try:
+        return not verify(data).proven
+    except InputError:
+        return True
+
+
+@pytest.mark.sample(9)
+@pytest.mark.parametrize("name", MADE)
+def test_each_limit_is_verified_and_read_again(name: str) -> None:
+    limit = limit_of(name)
+    data = limit.to_dict()
+    again = verify(data)
+    assert again.proven, (name, *map(str, again.claims))
+    assert again.bound == pytest.approx(limit.value, rel=1e-12), name
+    assert MoveLimit.from_json(limit.to_json()) == limit, name
+
+
+@pytest.mark.sample(9)
+@pytest.mark.parametrize("name", MADE)
+def test_each_statement_of_a_file_is_that_of_its_move(name: str) -> None:
+    limit = limit_of(name)
+    data = limit.to_dict()
+    wrong = {"unit": data["unit"] * 1.001, "dimension": "banana", "move": {}}
+    for key, value in wrong.items():
+        assert noticed(changed(data, (key,), value)), (name, key)
+    move = data["move"]
+    for key in ("stroke", "duration"):
+        if move[key] is not None:
+            assert noticed(changed(data, ("move", key), move[key] * 1.001)), (name, key)
+    drive = ("drive", "mechanism") if "drive" in move else ("mechanism",)
+    moved = move[drive[0]]["mechanism"] if len(drive) == 2 else move[drive[0]]
+    assert noticed(changed(data, ("move", *drive, "inertia"), f"1.001*({moved['inertia']})")), name
+    for key, other in (("value", 1.001), ("attained", 0.999)):
+        if data["drive_limit"][key] is not None:
+            assert noticed(changed(data, ("drive_limit", key), data["drive_limit"][key] * other)), (name, key)
+
+
+def test_a_limit_of_another_drive_is_not_proven() -> None:
+    one, other = (limit_of(name).to_dict() for name in ("peak torque of a drive", "energy of a drive"))
+    assert not verify({**one, "move": other["move"]}).proven
+
+
+def test_what_a_limit_does_not_use_is_not_in_its_file() -> None:
+    for name, limit in zip(MADE, map(limit_of, MADE), strict=True):
+        data = limit.to_dict()
+        beside = {"heat", "recovered"} & data["move"].keys()
+        of_drive = "drive" in data["move"]
+        assert beside == (set() if data["move"]["minimise"] != "energy" else {"heat"} if of_drive else beside), name
+        for key in {"heat", "recovered"} - beside:
+            with pytest.raises(InputError, match=key):
+                verify(changed(data, ("move", key), 0.1))
+    with pytest.raises(InputError, match="recovered is a part of the energy that is minimised"):
+        MECHANISM.limit("rms torque", *MOVE, recovered=0.5)
+    with pytest.raises(InputError, match="recovered of a drive is its regeneration"):
+        replace(limit_of("energy of a drive").move, recovered=0.5)
+
+
+@pytest.mark.parametrize("name", ["peak torque of a drive", "energy with heat", "time of a drive"])
+def test_no_number_stands_beside_a_certificate_that_proves_nothing(name: str) -> None:
+    data = limit_of(name).to_dict()
+    for key in ("level", "price", "near"):
+        for value in (1e-3, 7.0):
+            wrong = changed(data, ("drive_limit", key), data["drive_limit"][key] + value)
+            assert noticed(wrong) or (verify(wrong).bound or 0.0) <= limit_of(name).attained, (name, key)
+    pieces = len(data["drive_limit"]["edges"]) - 1
+    broken = changed(data, ("drive_limit", "potential"), [[0.0] * 5] * pieces)
+    assert noticed(broken), name
+    assert noticed(changed(broken, ("drive_limit", "attained"), None)), name
+
+
+def test_a_file_without_its_move_is_refused_with_a_remedy() -> None:
+    for name, limit in zip(MADE, map(limit_of, MADE), strict=True):
+        data = {key: value for key, value in limit.to_dict().items() if key != "move"}
+        for read in (verify, MoveLimit.from_dict):
+            with pytest.raises(
+                InputError, match=r"did not store its mechanism and its move.*compute it again"
+            ) as caught:
+                read(data)
+            assert len(str(caught.value)) < 300, name

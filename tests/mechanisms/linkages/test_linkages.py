@@ -1,4 +1,4 @@
-"""Linkages against equations of motion of another kind: positions by circles, constraint forces, energies."""
+"""Linkages against equations of motion of another kind, and the slider-crank against published numbers."""
 
 from __future__ import annotations
 
@@ -18,19 +18,21 @@ from optlaws import (
     Mechanism,
     Problem,
     Solution,
+    at_most,
     four_bar,
+    integral,
     mechanism_of_motion,
+    peak,
     rms,
     slider_crank,
     smoothstep,
     synthesize,
     toggle,
 )
-from optlaws.typing import Array
+from optlaws.typing import Array, StrokeTorque
 
 G = 9.80665
 LAW = smoothstep(3)
-
 CRANK = Body(1.0, centre=(0.04, 0.01), inertia=0.002)
 COUPLER = Body(2.0, centre=(0.12, 0.05), inertia=0.01)
 ROCKER = Body(1.5, centre=(0.10, -0.02), inertia=0.02)
@@ -280,3 +282,62 @@ def test_a_mass_at_a_joint_moves_alike_on_either_link(
         assert here.inertia(x, nu) == pytest.approx(there.inertia(x, nu), abs=1e-13)
     assert here.load(x) == pytest.approx(there.load(x), abs=1e-11)
     assert np.ptp(here.load(x)) > 0.1
+
+
+# --- the slider-crank ---
+
+
+def press(crank_inertia: float) -> Mechanism:
+    return slider_crank("0.1 m", "0.4 m", bodies={"slider": "5 kg", "crank": crank_inertia})
+
+
+@pytest.fixture(scope="module")
+def moved() -> StrokeTorque:
+    return press(0.02).dimensionless("0 deg", "180 deg", "0.3 s")
+
+
+@pytest.mark.parametrize(("crank_inertia", "expected"), [(0.0, 5.992776), (0.02, 7.979021)])
+def test_rms_torque_of_the_quintic(crank_inertia: float, expected: float) -> None:
+    stroke = press(crank_inertia).dimensionless("0 deg", "180 deg", "0.3 s")
+    assert rms(stroke.torque).value(smoothstep(3)) * stroke.unit == pytest.approx(expected, abs=6e-7)
+
+
+@pytest.mark.sample(2)
+@pytest.mark.parametrize(
+    ("degree", "symmetric", "expected"),
+    [(5, False, 4.032923), (9, False, 3.989601), (13, False, 3.960253), (9, True, 4.126803)],
+)
+def test_least_rms_torque(moved: StrokeTorque, degree: int, symmetric: bool, expected: float) -> None:  # noqa: FBT001
+    problem = Problem(order=3, basis=Chebyshev(degree), minimise=rms(moved.torque), symmetric=symmetric)
+    assert synthesize(problem).objective * moved.unit == pytest.approx(expected, abs=1e-6)
+
+
+def test_least_peak_torque(moved: StrokeTorque) -> None:
+    problem = Problem(order=3, basis=Chebyshev(9), minimise=peak(moved.torque), C=at_most(12))
+    assert synthesize(problem).objective * moved.unit == pytest.approx(5.1057, abs=1e-4)
+
+
+@pytest.mark.long
+def test_least_energy_without_regeneration(moved: StrokeTorque) -> None:
+    energy = integral(f"max(({moved.torque})*b, 0)")
+    assert energy.value(smoothstep(3)) * moved.unit == pytest.approx(4.416, abs=5e-4)
+    problem = Problem(order=3, basis=Chebyshev(9), minimise=energy, C=at_most(12))
+    assert synthesize(problem).objective * moved.unit <= 1.196
+
+
+def test_inertia_that_vanishes_at_the_dead_centres() -> None:
+    # without inertia of the crank the torque there is that of friction alone
+    without = press(0.0).with_friction(coulomb="0.4 N m")
+    assert without.inertia(0.0) == 0.0
+    assert without.torque(0.0, 3.0, 500.0) == pytest.approx(0.4, abs=1e-12)
+    stroke = press(0.0).dimensionless("0 deg", "180 deg", "0.3 s")
+    problem = Problem(order=3, basis=Chebyshev(9), minimise=rms(stroke.torque), symmetric=False)
+    assert synthesize(problem).objective * stroke.unit == pytest.approx(1.263272, abs=1e-6)
+
+
+def test_a_stroke_backwards_takes_the_torque_of_its_mirror() -> None:
+    # the slider-crank looks the same from both sides, so that the way back takes what the way forth takes
+    forth = press(0.02).with_friction(coulomb="1 N m", viscous="0.1 N m s/rad").dimensionless("0 deg", "120 deg", 0.2)
+    back = press(0.02).with_friction(coulomb="1 N m", viscous="0.1 N m s/rad").dimensionless("360 deg", "-120 deg", 0.2)
+    for law in (smoothstep(3), smoothstep(5)):
+        assert rms(back.torque).value(law) * back.unit == pytest.approx(rms(forth.torque).value(law) * forth.unit)

@@ -1,4 +1,4 @@
-"""What machines do: against an integrator, against python-control, against followers, and over cycles."""
+"""What machines do: against integrators, python-control and followers; flat outputs and spectra over a parameter."""
 
 from collections.abc import Callable, Sequence
 from types import SimpleNamespace
@@ -8,8 +8,24 @@ import numpy as np
 import pytest
 from scipy import signal
 
-from optlaws import Follower, InputError, Link, Machine, MotionLaw, PiecewiseLaw, catalogue, savin, smoothstep
+from optlaws import (
+    Follower,
+    InputError,
+    Link,
+    Machine,
+    MotionLaw,
+    PiecewiseLaw,
+    catalogue,
+    driving_law,
+    flat_output,
+    machine_spectrum,
+    polydyne,
+    response_spectrum,
+    savin,
+    smoothstep,
+)
 from tests.internals.laws import PolynomialSegment
+from tests.internals.mechanisms import cam_factors
 from tests.mechanisms.machine.random_machines import KINDS, integrated, random_case
 from tests.sampling import sampled
 
@@ -324,3 +340,110 @@ def test_no_state_of_rest_is_said() -> None:
     away = PiecewiseLaw([0, 1], [PolynomialSegment((0.0,), 1.0)], a0=0.5)
     with pytest.raises(InputError, match="no state of rest"):
         drifting.response(away).peak("output 1")
+
+
+# --- flat outputs ---
+
+
+def chain(count: int, damping: float = 0.0) -> Machine:
+    """Masses one behind the other, dampers to the ground only unless `damping`."""
+    names = ["motor", *(f"m{i}" for i in range(1, count + 1))]
+    masses = {name: 1.0 + 0.3 * i for i, name in enumerate(names)}
+    links = [Link(names[i], names[i + 1], 300.0 + 50.0 * i, damping) for i in range(count)]
+    links += [Link(name, "ground", 0.0, 0.5) for name in names[1:]]
+    return Machine.from_masses(masses, links, drive="motor", outputs=[f"position {names[-1]}", "drive force"])
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_the_last_mass_moves_by_the_law_and_stays(count: int) -> None:
+    machine, law = chain(count), smoothstep(2 * count + 2)
+    driven = driving_law(machine, law)
+    response = machine.response(driven, dwell=1.0)
+    k = np.linspace(0.0, 1.0, 41)
+    assert response[machine.outputs[0]](k) == pytest.approx(law(k), abs=1e-9)
+    after = response[machine.outputs[0]].extrema(0, (1.0, 2.0))
+    assert (after[0].value, after[1].value) == pytest.approx((1.0, 1.0), abs=1e-9)
+    for mode in machine.modes:
+        assert machine.residual(mode.number).value(driven) < 1e-9
+
+
+def test_one_mass_is_a_polydyne_cam() -> None:
+    nu, damping = 20.0, 0.05
+    machine = Machine([[0, 1], [-(nu**2), -2 * damping * nu]], [[0], [nu**2]], [[1, 0]], outputs=["mass"])
+    assert flat_output(machine) == pytest.approx((1.0, *map(float, cam_factors(nu, damping))), rel=1e-14)
+    k = np.linspace(0.0, 1.0, 21)
+    law = savin("III", 7.2)
+    assert driving_law(machine, law)(k) == pytest.approx(polydyne(law, nu, damping)(k), abs=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("says", "machine", "output"),
+    [
+        ("has zeros .-", chain(1, damping=2.0), None),
+        ("enters it directly", chain(1), "drive force"),
+        ("does not move it", Machine([[0, 1], [-9, 0]], [[0], [0]], [[1, 0]]), None),
+        ("unknown output", chain(1), "torque"),
+    ],
+)
+def test_outputs_that_are_not_flat_say_why(says: str, machine: Machine, output: str | None) -> None:
+    with pytest.raises(InputError, match=says):
+        flat_output(machine, output)
+
+
+def test_laws_that_are_not_smooth_enough_are_refused() -> None:
+    with pytest.raises(InputError, match="of order 4 at least"):
+        driving_law(chain(1), smoothstep(3))
+
+
+# --- spectra over a parameter ---
+
+
+def accelerated(nu: float) -> Machine:
+    C, D = [[-(nu**2), -0.1 * nu]], [[nu**2]]
+    return Machine([[0, 1], [-(nu**2), -0.1 * nu]], [[0], [nu**2]], C, D, outputs=["acceleration"])
+
+
+def test_a_followers_spectrum_is_its_own() -> None:
+    nu, law = np.linspace(5.0, 40.0, 8), savin("III", 7.2)
+    found, expected = machine_spectrum(accelerated, nu, law), response_spectrum(law, nu, 0.05)
+    assert found.frequencies[:, 0] == pytest.approx(nu, rel=1e-12)
+    assert found.residuals[:, 0] == pytest.approx(expected.residual_acceleration, rel=1e-9)
+    assert found.peaks["acceleration"] == pytest.approx(expected.peak_acceleration, rel=1e-5)
+
+
+def test_machines_with_fewer_modes_have_no_number_there() -> None:
+    spectrum = machine_spectrum(
+        lambda c: Machine([[0, 1], [-25, -c]], [[0], [25]], [[1, 0]]), [1.0, 20.0], savin("III", 0)
+    )
+    assert np.isnan(spectrum.residuals).ravel().tolist() == [False, True]
+
+
+def belt(stiffness: float) -> Machine:
+    return Machine.from_masses({"motor": 1.0, "load": 3.0}, [("motor", "load", stiffness, 0.5)], drive="motor")
+
+
+def test_a_spectrum_is_drawn_and_tabled() -> None:
+    spectrum = machine_spectrum(
+        belt, [100.0, 400.0, 900.0], savin("III", 0), dwell=0.5, output="force motor-load", parameter="stiffness, N/m"
+    )
+    left = [belt(value).residual(1, "force motor-load").value(savin("III", 0)) for value in spectrum.values]
+    assert spectrum.residuals[:, 0] == pytest.approx(left, rel=1e-12)
+    peak, mode = spectrum.plot()
+    assert (peak.axes.get_xlabel(), peak.axes.get_ylabel()) == ("stiffness, N/m", "force motor-load")
+    assert peak.get_ydata() == pytest.approx(spectrum.peaks["force motor-load"])
+    assert mode.get_ydata() == pytest.approx(left)
+    table = spectrum.to_pandas()
+    assert table.index.name == "stiffness, N/m"
+    assert table["mode 1 left in force motor-load"].tolist() == pytest.approx(left)
+    assert table["frequency of mode 1"].tolist() == pytest.approx(np.sqrt(spectrum.values / 3.0).tolist())
+
+
+def test_what_is_no_machine_is_refused() -> None:
+    with pytest.raises(InputError, match="values must be at least one"):
+        machine_spectrum(belt, [], savin("III", 0))
+    with pytest.raises(InputError, match="did you mean 'force motor-load'"):
+        machine_spectrum(belt, [1.0], savin("III", 0), output="force motor load")
+    with pytest.raises(InputError, match="make must give a Machine"):
+        machine_spectrum(lambda _: 3, [1.0], savin("III", 0))  # type: ignore[arg-type,return-value]
+    with pytest.raises(InputError, match="same outputs"):
+        machine_spectrum(lambda s: Machine([[-s]], [[s]], [[1.0]], outputs=[f"at {s:g}"]), [1.0, 2.0], savin("III", 0))

@@ -1,6 +1,7 @@
-"""Laws solved together against laws solved alone: across structures, at the places where they change, beside them."""
+"""Laws solved together against laws solved alone: along a line, of formulas and of power, whatever their structure."""
 
 from dataclasses import replace
+from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
@@ -26,15 +27,26 @@ from optlaws import (
 from optlaws.verification import verify
 from tests.bench.plain import Rows, highs
 from tests.internals.synthesis import (
+    FormulaFamily,
+    LawSearch,
     ParametricContinuation,
     Path,
+    SolvedBatch,
+    States,
     StructureSegment,
     _event,
     between,
     converged,
     laws_along,
     laws_on,
+    least_power,
+    locally_optimal,
+    model_of,
+    on_global_branch,
+    solve_many,
+    sums_of_rows,
 )
+from tests.sampling import sampled
 
 ENDS = (1.42, 2.6)
 COUNT = 400
@@ -289,3 +301,221 @@ def test_certificates_are_verified_with_every_rounding_enclosed() -> None:
         solution = laws.result(place)
         assert isinstance(solution, Solution)
         assert verify(solution.to_dict()).proven
+
+
+# --- least power ---
+
+
+FEWER = 60
+
+
+def check_power(laws: SolutionArray, places: list[int]) -> None:
+    """What was solved together is what each is alone."""
+    for place in places:
+        alone, one = synthesize(laws.problems.problem(place)), laws.result(place)
+        assert isinstance(one, Solution)
+        assert place not in laws.others
+        assert one.objective == pytest.approx(alone.objective, rel=1e-9)
+        assert one.status is alone.status
+        np.testing.assert_allclose(one.z_series, alone.z_series, rtol=1e-8, atol=1e-8)
+        assert one.lower_bound == pytest.approx(alone.lower_bound, rel=1e-9)
+        assert one.lower_bound == laws.lower_bound.reshape(-1)[place]
+        assert one.certificate.bound <= one.objective
+        assert one.constants.D.value == pytest.approx(laws.D.reshape(-1)[place], rel=1e-12)
+
+
+KINDS_OF_POWER: dict[str, dict[str, Any]] = {
+    "B": {},
+    "B of order 2, degree 5": {"order": 2, "basis": Chebyshev(5)},
+    "B, no return": {"B": np.linspace(1.5, 2.5, FEWER), "monotone": True, "basis": Chebyshev(7)},
+    "B, unsymmetric": {"B": np.linspace(1.6, 2.2, FEWER), "symmetric": False, "order": 3, "basis": Chebyshev(5)},
+    "most C": {"B": 1.7, "C": (None, np.linspace(5.0, 5.9, FEWER))},
+    "most C, any B": {"B": None, "C": (None, np.linspace(4.9, 5.6, FEWER)), "basis": Chebyshev(7)},
+    "weights": {"B": 1.7, "minimise": map_arrays("{:.17g}*D".format, np.linspace(0.5, 2.0, FEWER))},
+}
+
+
+@pytest.mark.sample(6)
+@pytest.mark.parametrize("kind", KINDS_OF_POWER)
+@pytest.mark.filterwarnings("ignore::optlaws.NotNormalised")
+def test_laws_of_least_power_are_those_solved_alone(kind: str) -> None:
+    entries = {"B": np.linspace(*ENDS, FEWER), "order": 4, "basis": Chebyshev(9), "minimise": "D"} | KINDS_OF_POWER[
+        kind
+    ]
+    laws = synthesize_array(ProblemArray(**entries))
+    assert (laws.status == "local").all()
+    assert not laws.others
+    check_power(laws, [2, 31, 58])
+
+
+def test_laws_of_least_power_depend_neither_on_their_order_nor_on_their_company() -> None:
+    B = np.linspace(*ENDS, 61)
+    whole, turned, half = (
+        synthesize_array(ProblemArray(B=some, order=3, basis=Chebyshev(5), minimise="D"))
+        for some in (B, B[::-1], B[::2])
+    )
+    assert not {**whole.others, **turned.others, **half.others}
+    np.testing.assert_allclose(turned.objective[::-1], whole.objective, rtol=1e-12)
+    np.testing.assert_allclose(half.objective, whole.objective[::2], rtol=1e-12)
+    np.testing.assert_allclose(half.z_series, whole.z_series[::2], rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(half.lower_bound, whole.lower_bound[::2], rtol=1e-10)
+
+
+def test_power_among_laws_that_are_no_convex_set_is_not_solved_in_arrays() -> None:
+    assert least_power(Problem(B=1.7, order=4, minimise="D", C=at_most(9.0)))
+    for asked in ({"D": (None, 6.0)}, {"windows": ["b*c <= 3 @ 0.2..0.3"]}, {"minimise": "0.5*C/4 + 0.5*D/2.25"}):
+        entries: dict[str, Any] = {"B": 1.7, "order": 4, "minimise": "D"} | asked
+        assert not least_power(Problem.from_dict(entries))
+
+
+def path_of_power(degree: int) -> Path:
+    problem = Problem(order=4, basis=Chebyshev(degree), B=ENDS[0], minimise="D")
+    path = between(problem, replace(problem, B=ENDS[1]))
+    assert path is not None
+    return path
+
+
+@pytest.mark.long
+def test_laws_of_least_power_where_their_structure_changes() -> None:
+    path = path_of_power(9)
+    segments = ParametricContinuation(path, 0.0, 1.0).whole(np.array([0.5]))
+    edges = np.array([segment.end for segment in segments[:-1]])
+    assert len(edges) == 4
+    beside = np.concatenate([edges + away for away in (-1e-6, 0.0, 1e-6)])
+    t = np.sort(np.concatenate([np.linspace(0.0, 1.0, 40), beside]))
+    laws = laws_on(path, segments, t)
+    assert laws.solved.all()
+    for row in np.flatnonzero(np.isin(t, edges)):
+        alone = synthesize(Problem(order=4, basis=Chebyshev(9), B=float(1.42 + 1.18 * t[row]), minimise="D"))
+        assert laws.objective[row] == pytest.approx(alone.objective, rel=1e-9)
+
+
+def test_where_another_branch_is_better_laws_are_sought_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Rival(LawSearch):
+        def least(self, known: float) -> float | None:
+            own = super().least(known)
+            return own if own is None or ENDS[0] != self.problem.B else 0.99 * own
+
+    monkeypatch.setattr(solve_many, "LawSearch", Rival)
+    laws = synthesize_array(ProblemArray(B=np.linspace(*ENDS, 24), order=7, basis=Chebyshev(7), minimise="D"))
+    assert sorted(laws.others) == list(range(6))
+    assert (laws.status == "local").all()
+
+
+def test_laws_between_two_that_agree_are_kept_and_no_others() -> None:
+    changed = replace(SolvedBatch.none(25, 0, 0, 0), objective=np.ones(25))
+    for answers, kept in (
+        ({}, range(25)),
+        ({12: 0.9}, [*range(7), *range(18, 25)]),
+        ({0: None}, range(6, 25)),
+        ({0: 0.9, 24: 1.1}, range(6, 19)),
+    ):
+        sought = on_global_branch(changed, np.arange(25), lambda place, answers=answers: answers.get(place, 1.0))  # type: ignore[misc]
+        assert np.flatnonzero(sought).tolist() == list(kept)
+
+
+def test_a_law_that_is_no_minimum_is_seen() -> None:
+    path = path_of_power(5)
+    segments = ParametricContinuation(path, 0.0, 1.0).whole(np.array([0.5]))
+    assert {len(path.model.program.right) + one.structure.count for one in segments} == {3, 4}
+    for segment in segments:
+        states = States.unpacked(segment.rows, segment.structure)
+        assert locally_optimal(segment.structure, states).all()
+        # with as many rows as variables nothing is left free
+        vertex = segment.structure.count == 3
+        turned = replace(states, weights=-states.weights)
+        assert locally_optimal(segment.structure, turned).tolist() == [vertex] * len(states)
+
+
+@pytest.mark.long
+def test_without_laws_and_with_tight_bounds_each_is_solved_alone() -> None:
+    laws = synthesize_array(ProblemArray(B=np.linspace(1.05, 1.8, 60), order=4, basis=Chebyshev(3), minimise="D"))
+    assert set(laws.status.tolist()) == {"infeasible", "local"}
+    assert (np.diff((laws.status == "local").astype(int)) >= 0).all()
+    tight = synthesize_array(
+        ProblemArray(B=np.linspace(1.7, 1.8, 24), order=2, basis=Chebyshev(1), minimise="D"), bound="tight"
+    )
+    assert len(tight.others) == 24
+
+
+def test_a_law_of_least_power_is_verified() -> None:
+    laws = synthesize_array(ProblemArray(B=np.linspace(*ENDS, 24), order=4, basis=Chebyshev(5), minimise="D"))
+    again = SolutionArray.from_dict(laws.to_dict())
+    for place in (1, 20):
+        assert again.result(place) == laws.result(place)
+        assert verify(laws[place].to_dict()).proven
+
+
+# --- formulas that are not affine in the law ---
+
+
+FORMULAS = (
+    "integral(c^2 + (1 + k)*b^2)",
+    "rms(c^2 + b^2)",
+    "peak(c^2 + 9*b^2)",
+    "peak(norm(c, 3*b))",
+    "peak(exp(c/5), side=high)",
+    "peak(c^2 + k*b^2, start=0.1, stop=0.7)",
+)
+
+
+@pytest.mark.parametrize("text", sampled(FORMULAS, 3))
+def test_many_laws_of_a_formula_are_those_of_each_alone(text: str) -> None:
+    asked = ProblemArray(B=np.linspace(1.65, 1.85, 140), order=4, basis=Chebyshev(5), minimise=text)
+    laws = synthesize_array(asked)
+    assert [len(part.places) for part in laws.parts] == [140]  # all by the walk, none alone
+    assert float(laws.gap.max()) < 1e-10
+    for place in (0, 77, 139):
+        alone = synthesize(asked.problem(place))
+        assert laws.objective[place] == pytest.approx(alone.objective, rel=1e-10)
+
+
+@pytest.mark.parametrize("text", FORMULAS)
+def test_planes_touch_and_second_derivatives_are_differences_of_slopes(text: str) -> None:
+    program = model_of(Problem(B=1.8, order=4, basis=Chebyshev(5), minimise=text)).program
+    [family] = [one for one in program.families if isinstance(one, FormulaFamily)][:1]
+    assert family.continuable
+    numbers = np.random.default_rng(1)
+    x = numbers.normal(size=(3, program.size)) * 0.3
+    u = np.tile(np.mean(family.domain) + np.array([0.0, 0.1]), (3, 1))
+    value, slope, bend = family.planes(u, np.column_stack([x, np.ones(3)]))
+    weights = np.array([[1.0, 0.5]] * 3)
+    hessian = family.hessians(u, np.column_stack([x, np.ones(3)]), weights)
+    for law in range(3):
+        jet = family.jet(x[law], u[law], np.ones(2))
+        room = family.right_side(x[law])
+        point = np.append(x[law], 1.0)
+        assert value[law] @ point - room == pytest.approx(jet.value, rel=1e-9, abs=1e-9)
+        assert value[law][:, :-1] - family.slack == pytest.approx(jet.gradient, rel=1e-9, abs=1e-9)
+        assert slope[law] @ point == pytest.approx(jet.slope, rel=1e-9, abs=1e-7)
+        assert slope[law][:, :-1] == pytest.approx(jet.slope_gradient, rel=1e-9, abs=1e-7)
+        assert bend[law] == pytest.approx(jet.curvature, rel=1e-9, abs=1e-6)
+        own = family.hessian(x[law], u[law], weights[law])
+        assert own is not None
+        assert hessian[law] == pytest.approx(own, rel=1e-9, abs=1e-9)
+
+
+def test_kinks_over_k_are_left_to_each_law_alone() -> None:
+    first, last = (
+        Problem(B=B, order=4, basis=Chebyshev(3), minimise="peak(c + table(k, 0:0, 0.5:1, 1:0)*b)")
+        for B in (1.75, 1.85)
+    )
+    assert between(first, last) is None
+
+
+# --- sums ---
+
+
+def test_sums_that_cancel_are_rounded_once() -> None:
+    rng = np.random.default_rng(5)
+    weights, rows = rng.normal(size=(6, 9)) * 1e9, rng.normal(size=(6, 9, 4))
+    # the last row takes away nearly all that the others add
+    rows[:, -1] = -np.einsum("lr,lrn->ln", weights[:, :-1], rows[:, :-1]) / weights[:, -1:]
+    found = sums_of_rows(np.ones(4), weights, rows)
+    for law in range(6):
+        for n in range(4):
+            exactly = [[Fraction(float(one)) for one in some] for some in (weights[law], rows[law, :, n])]
+            parts = [weight * entry for weight, entry in zip(*exactly, strict=True)]
+            exact = 1 + sum(parts)
+            most = Fraction(2.0**-53) * abs(exact) + Fraction(2.0**-96) * sum(map(abs, parts))
+            assert abs(Fraction(float(found[law, n])) - exact) <= most

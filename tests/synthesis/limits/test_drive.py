@@ -1,21 +1,57 @@
-"""Limits of drives against closed forms, passes of an integrator, laws at random and an integral by mpmath."""
+"""Limits of drives against closed forms, passes of an integrator, laws at random and others' optima."""
 
+from collections.abc import Callable
 from copy import deepcopy
+from dataclasses import replace
 from functools import lru_cache
 from itertools import pairwise
 from math import inf, sqrt
+from typing import Any
 
 import mpmath as mp  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.integrate import quad
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 
-from optlaws import DriveLimit, InfeasibleProblem, InputError, catalogue, drive_limit, drive_torque
+from optlaws import (
+    BoundaryConditions,
+    BSplines,
+    C,
+    Chebyshev,
+    DriveLimit,
+    InfeasibleProblem,
+    InputError,
+    Mechanism,
+    Powers,
+    Problem,
+    Solution,
+    at_most,
+    catalogue,
+    drive_limit,
+    drive_torque,
+    integral,
+    peak,
+    rms,
+    slider_crank,
+    smoothstep,
+    synthesize,
+)
 from optlaws.laws import MotionLaw
-from tests.internals.synthesis import Standing, optimum
+from optlaws.typing import PhasePlane
+from optlaws.verification import verify
+from tests.internals.synthesis import (
+    Standing,
+    TorqueLimit,
+    VelocityLimit,
+    limit_beside,
+    limit_of_plane,
+    optimum,
+    phase_torque,
+)
 from tests.sampling import examples
 
 LOADED = drive_torque(inertia="1 + 0.6*a^2", load="3*a")
@@ -257,3 +293,260 @@ def test_velocities_of_the_motion_that_was_found() -> None:
     k = np.array([brentq(lambda k, at=at: 3 * k**2 - 2 * k**3 - at, 0.0, 1.0) for at in a])
     assert np.allclose(limit.velocity(a), 6 * k * (1 - k), atol=2e-3)
     assert inf == limit.plane.B
+
+
+# --- laws beside the limit ---
+
+
+PRESS = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
+MOVE = PRESS.dimensionless("0 deg", "180 deg", "0.3 s")
+BASE: dict[str, Any] = {"order": 3, "basis": Powers(9), "symmetric": False, "monotone": True}
+
+
+def solved(**entries: object) -> Solution:
+    given: dict[str, Any] = {**BASE, "minimise": rms(MOVE.torque), **entries}
+    return synthesize(Problem(**given))
+
+
+def test_the_gap_to_the_limit_is_what_the_degree_costs() -> None:
+    """Of a slider-crank, 180 deg in 0.3 s: torques in N m, least at degrees 9 and 13 by BFGS."""
+    for degree, least in ((9, 3.989601), (13, 3.960253)):
+        solution = solved(basis=Powers(degree))
+        assert solution.objective * MOVE.unit == pytest.approx(least, abs=2e-6)
+        assert solution.lower_bound * MOVE.unit == pytest.approx(3.924086, abs=2e-6)
+        assert solution.drive_limit is not None
+        assert solution.lower_bound == solution.drive_limit.value
+
+
+@pytest.mark.parametrize(
+    ("minimise", "known", "limit"),
+    [
+        (peak(MOVE.torque), 5.1057, 4.7308),
+        pytest.param(integral(f"max(({MOVE.torque})*b, 0)"), 1.1960, 1.0140, marks=pytest.mark.long),
+    ],
+    ids=["peak", "energy"],
+)
+def test_peaks_and_energies_have_limits_too(minimise: object, known: float, limit: float) -> None:
+    solution = solved(minimise=minimise, C=(0, 12))
+    assert solution.objective * MOVE.unit <= known * 1.0002
+    assert solution.lower_bound * MOVE.unit == pytest.approx(limit, abs=2e-4)
+    assert solution.gap > 0.0
+
+
+def test_the_file_holds_the_certificate_and_verify_checks_it() -> None:
+    solution = solved()
+    assert Solution.from_json(solution.to_json()) == solution
+    checked = verify(solution.to_dict())
+    claims = {claim.name: claim for claim in checked.claims}
+    assert claims["the lower bound"].proven
+    assert "phase plane" in claims["the lower bound"].detail
+    assert claims["the drive's limit"].proven
+    assert [claim.name for claim in checked.claims if not claim.proven] == []
+
+
+def test_the_limit_of_another_problem_is_refused() -> None:
+    solution = solved()
+    other = solved(minimise=rms("(2 + a)*c + 0.5*b^2"))
+    data = deepcopy(solution.to_dict())
+    data["drive_limit"] = other.to_dict()["drive_limit"]
+    with pytest.raises(InputError, match="of another problem"):
+        Solution.from_dict(data)
+    assert not all(claim.proven for claim in verify(data).claims)
+    raised = deepcopy(solution.to_dict())
+    raised["drive_limit"]["value"] *= 1.001
+    with pytest.raises(InputError, match="above what its certificate proves"):
+        Solution.from_dict(raised)
+
+
+@pytest.mark.parametrize("changes", [{"monotone": False}, {"minimise": rms(MOVE.torque) + C}], ids=str)
+def test_without_a_limit_nothing_is_claimed(changes: dict[str, object]) -> None:
+    assert solved(basis=Powers(5), **changes).drive_limit is None
+
+
+WITHIN: dict[str, Any] = {"B": (0, 2.2), "C": (0, 9)}
+
+
+@pytest.mark.sample(3)
+@pytest.mark.parametrize(
+    ("formula", "options"),
+    [
+        (f"({LOADED})^2", {"minimise": "rms torque"}),
+        (f"max(({LOADED})*b, 0)", {"minimise": "energy"}),
+        (f"max(({LOADED})*b, 0.6*({LOADED})*b)", {"minimise": "energy", "recovered": 0.6}),
+    ],
+)
+def test_integrals_are_read_as_heat_and_energy(formula: str, options: dict[str, Any]) -> None:
+    known = drive_limit(LOADED, B=2.2, C=9.0, **options).value
+    known = known**2 if options["minimise"] == "rms torque" else known
+    for factor in (1.0, 0.05):
+        problem = Problem(**BASE, **WITHIN, minimise=integral(f"{factor}*{formula}"))
+        limit = limit_beside(problem)
+        assert limit is not None
+        assert limit.value == pytest.approx(factor * known, rel=1e-6)
+
+
+def test_energy_and_heat_together_are_above_their_limits_alone() -> None:
+    power, heat = f"max(({LOADED})*b, 0)", f"0.05*({LOADED})^2"
+    values = []
+    for formula in (power, heat, f"{power} + {heat}"):
+        limit = limit_beside(Problem(**BASE, **WITHIN, minimise=integral(formula)))
+        assert limit is not None
+        assert limit.gap < 1e-6
+        values.append(limit.value)
+    assert values[0] + values[1] < values[2] < 1.1 * (values[0] + values[1])
+
+
+def test_a_bound_of_the_torque_counts() -> None:
+    bounded = Problem(**BASE, minimise=rms(LOADED), bounds={peak(LOADED): (0, 4.5)}, B=at_most(2.2))
+    limit = limit_beside(bounded)
+    assert limit is not None
+    assert limit.value == pytest.approx(drive_limit(LOADED, "rms torque", B=2.2, P=4.5).value, rel=1e-6)
+
+
+# --- published motions ---
+
+
+# N. Van Oosterwyck, github.com/NickVanOosterwyck/TrajectoryOptimisation: a pick-and-place unit, 0 to 3.0299 rad in
+# 73.75 ms. Inertia and load are the polynomials of degree 4 and 5 in y = 2 x / 3.0299 - 1 that polyfit lays through
+# its tables (input/Nedschroef.xlsx, sheets J and Tl), as examples/Ex1_Ned_CompTraj.m asks.
+STROKE, TIME = 3.0299, 0.07375
+INERTIA = (
+    0.012438014347720832,
+    6.0976203761850756e-05,
+    -0.01757304837080832,
+    6.302708402889232e-05,
+    0.008885823771286298,
+)
+LOAD = (
+    0.01895507904063284,
+    -1.6964675567266643,
+    0.002153549238750275,
+    2.2275104227387312,
+    -0.06372175051560976,
+    -0.6760997032522278,
+)
+#: the root of the constant of its objective (fitFun.txt), which is that of the quintic
+QUINTIC = 506.3825176015552**0.5
+#: the root of the least value of that polynomial in two variables, by Nelder and Mead's method to 1e-13
+DEGREE_7 = 13.787590794045
+#: of torques every 0.25 ms (OptimisedTrajectoriesDiscrete.xlsx), by the trapezium rule
+DEGREE_9 = 12.481424
+
+
+def of_position(coefficients: tuple[float, ...]) -> str:
+    return " + ".join(f"({value!r})*(2*x/{STROKE!r} - 1)^{i}" for i, value in enumerate(coefficients))
+
+
+def test_a_pick_and_place_unit() -> None:
+    """Laws of degree 7 and 9 have 2 and 4 coefficients; the published optimum is 3.7 % above the limit."""
+    unit = Mechanism(of_position(INERTIA), load=of_position(LOAD), over=(0.0, STROKE))
+    moved = unit.dimensionless(0.0, STROKE, TIME)
+    torque = rms(moved.torque)
+    assert torque.value(smoothstep(3)) * moved.unit == pytest.approx(QUINTIC, rel=1e-12)
+    problem = Problem(order=3, symmetric=False, monotone=True, minimise=torque)
+    solutions = [synthesize(replace(problem, basis=Chebyshev(degree))) for degree in (1, 3, 13)]
+    least, limit = np.array([law.objective for law in solutions]) * moved.unit, solutions[0].lower_bound * moved.unit
+    assert least[0] == pytest.approx(DEGREE_7, rel=1e-11)
+    assert least[1] == pytest.approx(DEGREE_9, rel=3e-6)
+    assert limit == pytest.approx(12.03746, abs=1e-5)
+    assert limit < least[2] < 1.009 * limit
+
+
+def test_a_turn_of_a_crank_that_need_not_run_evenly() -> None:
+    """Four quintics, each a quarter of the time: a vendor's page has 4.07 N m at constant speed, about 1.5 with them.
+
+    controleng.ca/servosoft, OptimizerExampleSliderCrank; it gives neither lengths nor masses nor loads, so that only
+    the order of the ratio, 0.37, can be compared. Without a load constant kinetic energy needs no torque at all.
+    """
+    press = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"}, over=("0 deg", "360 deg"))
+    x = np.linspace(0.0, 2.0 * np.pi, 3601)
+    even = float(np.abs(press.torque(x, 2.0 * np.pi, 0.0)).max())
+    moved = press.dimensionless("0 deg", "360 deg", "1 s")
+    ends = BoundaryConditions((0, 1, 0), (1, 1, 0))
+    best = synthesize(Problem(boundary=ends, basis=BSplines(4, 5), symmetric=False, minimise=peak(moved.torque)))
+    assert best.objective * moved.unit == pytest.approx(0.55495, abs=1e-5)
+    assert 0.3 < best.objective * moved.unit / even < 0.5
+    # b = constant / sqrt(J) keeps the kinetic energy: J x'' + J' x'^2 / 2 = 0
+    speed = 2.0 * np.pi / np.sqrt(press.inertia(x) / press.inertia(0.0))
+    slope = -0.5 * press.inertia(x, 1) / press.inertia(x) * speed**2
+    assert np.abs(press.torque(x, speed, slope)).max() < 1e-12 * even
+
+
+# --- bounds over parts of the stroke ---
+
+
+FREE_TORQUE, LOADED_TORQUE = phase_torque("c"), phase_torque("0.5*c + 0.5*a")
+
+
+def time_of(square: Callable[[float], float], *breaks: float) -> float:
+    """The time of a motion whose squared velocity is known over the position."""
+    total, ends = 0.0, [0.0, *breaks, 1.0]
+    for low, high in pairwise(ends):
+        # a = low + (high - low) sin² x takes the roots away
+        def pace(x: float, low: float = low, high: float = high) -> float:
+            a = low + (high - low) * np.sin(x) ** 2
+            return float((high - low) * np.sin(2.0 * x) / sqrt(square(a)))
+
+        total += quad(pace, 0.0, np.pi / 2, epsabs=1e-10, epsrel=1e-10)[0]
+    return total
+
+
+def test_a_slow_part_takes_the_time_that_it_takes() -> None:
+    C, B, low, high = 9.0, 0.8, 0.35, 0.6
+
+    def square(a: float) -> float:
+        away = max(low - a, a - high, 0.0)
+        return min(2.0 * C * a, 2.0 * C * (1.0 - a), B**2 + 2.0 * C * away)
+
+    rise, fall = (B**2 / (2.0 * C) + low) / 2.0, 1.0 - (B**2 / (2.0 * C) + 1.0 - high) / 2.0
+    limit = limit_of_plane(PhasePlane(C=C, velocities=(VelocityLimit(low, high, B),)), "time")
+    known = time_of(square, rise, low, high, fall)
+    assert known * (1.0 - 1e-4) <= limit.value <= known * (1.0 + 1e-9)
+    assert limit.from_json(limit.to_json()) == limit
+
+
+def test_a_part_of_little_torque_costs_what_the_passes_say() -> None:
+    P, weak, low, high = 9.0, 2.0, 0.1, 0.3
+
+    def square(a: float) -> float:
+        rising = 2.0 * (P * min(a, low) + weak * min(max(a - low, 0.0), high - low) + P * max(a - high, 0.0))
+        return min(rising, 2.0 * P * (1.0 - a))
+
+    meet = 0.5 * (1.0 - (low * P + (high - low) * weak - high * P) / P)
+    plane = PhasePlane(limits=(TorqueLimit(FREE_TORQUE, P), TorqueLimit(FREE_TORQUE, weak, start=low, stop=high)))
+    limit = limit_of_plane(plane, "time")
+    known = time_of(square, low, high, meet)
+    assert known * (1.0 - 2e-6) <= limit.value <= known * (1.0 + 1e-9)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("kind", ["rms torque", pytest.param("peak torque", marks=pytest.mark.long)])
+def test_a_bound_over_a_part_is_between_none_and_one_everywhere(kind: str) -> None:
+    objective = {"squared": LOADED_TORQUE} if kind == "rms torque" else {"peak": LOADED_TORQUE}
+    planes = [
+        PhasePlane(**objective, C=9.0, **bounds)  # type: ignore[arg-type]
+        for bounds in ({}, {"velocities": (VelocityLimit(0.4, 0.7, 1.3),)}, {"B": 1.3})
+    ]
+    limits = [limit_of_plane(plane, kind) for plane in planes]  # type: ignore[arg-type]
+    assert limits[0].value < 0.999 * limits[1].value
+    assert limits[1].value < 0.999 * limits[2].value
+    assert max(limit.gap for limit in limits) < 5e-4
+    everywhere = PhasePlane(**objective, C=9.0, velocities=(VelocityLimit(0.0, 1.0, 1.3),))  # type: ignore[arg-type]
+    known = limits[2].value
+    assert 0.999 * known < limit_of_plane(everywhere, kind).value < 1.0001 * known  # type: ignore[arg-type]
+
+
+@pytest.mark.long
+def test_parts_of_the_way_of_a_mechanism_are_positions_of_its_input() -> None:
+    table = Mechanism("0.8 kg m^2")
+    slow = {"velocity": [("20 deg", "30 deg", "2 rad/s")], "acceleration": "150 rad/s^2"}
+    forth = table.limit("rms torque", "0 deg", "45 deg", "0.25 s", limits=slow)
+    back = table.limit("rms torque", "50 deg", "-45 deg", "0.25 s", limits=slow)
+    assert forth.value == pytest.approx(back.value, rel=1e-5)
+    assert forth.value > table.limit("rms torque", "0 deg", "45 deg", "0.25 s").value * 1.1
+    with pytest.raises(InputError, match="within the stroke"):
+        table.limit("rms torque", "0 deg", "25 deg", "0.25 s", limits=slow)
+    with pytest.raises(InputError, match="velocity 1 must be a list of an angle, an angle and an angular"):
+        table.limit("rms torque", "0 deg", "45 deg", "0.25 s", limits={"velocity": [("20 deg", "2 rad/s")]})
+    with pytest.raises(InputError, match="ascend"):
+        VelocityLimit(0.4, 0.2, 1.0)

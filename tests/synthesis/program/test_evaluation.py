@@ -1,16 +1,22 @@
-"""The value of a law for a problem, on laws whose numbers are known by hand: 3k² - 2k³ has B 3/2, C 6 and J 12."""
+"""The value of a law for a problem, and classes of users whose methods contradict each other."""
 
+from dataclasses import dataclass
 from math import inf, sqrt
 from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from optlaws import (
     B,
+    Basis,
     BoundaryConditions,
     C,
+    Functional,
+    InputError,
     J,
+    MotionLaw,
     PolynomialLaw,
     Problem,
     Window,
@@ -21,9 +27,11 @@ from optlaws import (
     law_from_z,
     smoothstep,
     snap,
+    synthesize,
     via,
 )
-from tests.internals.synthesis import evaluate, shortfalls
+from optlaws.synthesis import PolynomialBasis
+from tests.internals.synthesis import ConstraintFamily, LawSpace, evaluate, shortfalls
 
 CUBIC = smoothstep(2)
 #: b = 7/4 T3(2k-1) - 1/4, from -2 at k = 0 and 3/4 up to 3/2 at k = 1/4 and 1; c(1/4) = 0
@@ -170,3 +178,63 @@ def test_a_velocity_is_too_small_only_where_its_place_is_not_asked() -> None:
 def test_a_range_without_an_end_asks_nothing() -> None:
     assert evaluate(cubic(B=at_most(inf), C=at_most(inf)), CUBIC).excess == 0.0
     assert np.isfinite(evaluate(cubic(), CUBIC).objective)
+
+
+# --- classes that contradict themselves ---
+
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, repr=False)
+class Jump(Functional):
+    """The peak of the snap, whose rows are those of a derivative times a factor."""
+
+    of_rows: int = 4
+    factor: float = 1.0
+
+    def value(self, law: MotionLaw) -> float:
+        return self.factor * law.peak(4).value
+
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
+        return (space.derivative(self.of_rows, self.name, slack, bound),)
+
+    def curbs(self) -> tuple[tuple[int, float], ...]:
+        return ((4, 1.0),)
+
+
+@pytest.mark.parametrize(("of_rows", "factor"), [(5, 1.0), (3, 1.0), (4, 2.0), (4, 0.5)])
+@pytest.mark.parametrize("bounded", [False, True])
+def test_rows_and_values_that_contradict_each_other_are_refused(of_rows: int, factor: float, *, bounded: bool) -> None:
+    jump = Jump("jump", float("nan"), convex=True, of_rows=of_rows, factor=factor)
+    problem = Problem(order=5, bounds={jump: (None, 9e9)}) if bounded else Problem(order=5, minimise=jump)
+    with pytest.raises(
+        InputError, match=r"Jump\.families and Jump\.value contradict each other: of a law the rows ask"
+    ):
+        synthesize(problem)
+
+
+def test_those_that_agree_are_taken() -> None:
+    assert synthesize(Problem(order=5, minimise=Jump("jump", float("nan"), convex=True))).status == "optimal"
+
+
+@pytest.mark.parametrize("factor", [1.0, 2.0])
+def test_a_basis_whose_conversions_do_not_lead_back_is_refused(factor: float) -> None:
+    class Stretched(PolynomialBasis):
+        name = "stretched"
+
+        def coefficients(self, series: Array) -> tuple[float, ...]:
+            return tuple((factor * series).tolist())
+
+        def series(self, z: object) -> Array:
+            return np.asarray(z, dtype=np.float64)
+
+    try:
+        problem = Problem(B=1.8, order=4, basis=Stretched(9))
+        if factor == 1.0:
+            assert synthesize(problem).objective == pytest.approx(synthesize(Problem(B=1.8, order=4)).objective)
+            return
+        with pytest.raises(InputError, match=r"Stretched\.coefficients and \.series contradict each other at degree 6"):
+            synthesize(problem)
+    finally:
+        del Basis.kinds["stretched"]
