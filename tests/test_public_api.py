@@ -240,7 +240,7 @@ def test_the_table_of_constants_names_each_public_one() -> None:
 
 
 def test_the_page_of_types_names_each_of_them_and_the_words_of_each_choice() -> None:
-    page = with_parts("reference/api/typing", (ROOT / "docs/reference/api/typing.md").read_text("utf-8"))
+    page = with_parts("reference/api/results", (ROOT / "docs/reference/api/results.md").read_text("utf-8"))
     rows = re.findall(r"^\| (`.*?) \| (.*?) \|", page, re.MULTILINE)
     words = {name: re.findall("`(.*?)`", row) for names, row in rows for name in re.findall("`(.*?)`", names)}
     assert sorted(words) == sorted(vars(optlaws.typing)["__all__"])

@@ -54,7 +54,7 @@ def values() -> str:
 PARTS: Mapping[str, Mapping[str, Callable[[], str]]] = {
     "architecture": {"<!-- the tree -->": tree},
     "how-to/catalogue": {"<!-- the catalogue -->": catalogue_table},
-    "reference/api/typing": {"<!-- the choices -->": choices, "<!-- the values -->": values},
+    "reference/api/results": {"<!-- the choices -->": choices, "<!-- the values -->": values},
     "reference/problem-files": {f"<!-- entries of {name} -->": made for name, made in TABLES.items()},
     "reference/command-line": {f"<!-- options of {name} -->": partial(option_tables, name) for name in COMMANDS},
 }
