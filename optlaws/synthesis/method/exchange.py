@@ -50,10 +50,7 @@ _AMPLE = 1.2
 #: places of an integral in a linear program that shows its kinks, and in one more where that does not
 _PLACES = (160, 640)
 _CONTINUED = "continued from a neighbour"
-_DIVERGING = ("DualInfeasible", "Diverging_Iterates")
 _STALLED = "and what answers exceed between the points falls no more"
-_GROUND = "objective at least"
-DEPTH = 1e5  # beyond what laws of the field have
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,8 +184,6 @@ class _Exchange:
         while optimum is None and onward and self.count < self.rounds:
             self.count += 1
             optimum, onward = self._round()
-        if optimum is None:
-            optimum = self._grounded() if self.status in _DIVERGING else self._last()
         left = () if optimum is not None else tuple(self.tried)
         return Outcome(optimum, self.iterations, self.count, self.status, left)
 
@@ -268,21 +263,6 @@ class _Exchange:
         self.status = self.status if optimum is None else "amplitudes that vanish"
         return optimum
 
-    def _grounded(self) -> ActiveSet | None:
-        """The optimum of the program with a bounded objective: without points enough it may have none."""
-        if any(family.name == _GROUND for family in self.program.families):
-            return None
-        deep = _Exchange(grounded(self.program), replace(self.options, holds=None)).outcome()
-        self.iterations += deep.iterations
-        # the row that holds the objective up is none of the program's
-        by_ground = deep.optimum is None or (deep.optimum.family == len(self.program.families)).any()
-        return None if by_ground else deep.optimum
-
-    def _last(self) -> ActiveSet | None:
-        """The last answer, where it is one to a program without curves that tangents leave far."""
-        flat = _only(self.program, LinearFamily, ConeFamily, KinkedIntegralFamily)
-        return self.tried[-1] if flat and self.tried and not self.lost else None
-
 
 def answer_on_points(
     program: Program, points: list[Points], start: Array | None, settled: float = STEP_SETTLED
@@ -316,13 +296,6 @@ def _excess(program: Program, x: Array) -> float:
         if not family.as_equation
     )
     return max(sizes, default=0.0)
-
-
-def grounded(program: Program) -> Program:
-    """The program with a lower bound on its objective from the law space, without which it may have none."""
-    row = np.append(-program.objective, 0.0)[None, :]
-    ground = LinearFamily(_GROUND, np.zeros(program.size), DEPTH, (1.0,), (1.0, 1.0), series=row)
-    return replace(program, families=(*program.families, ground))
 
 
 def of_variables(program: Program, x: Array) -> ActiveSet:

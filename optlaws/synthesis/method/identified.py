@@ -9,34 +9,26 @@ from numpy.typing import NDArray
 
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet, Contact
-from optlaws.synthesis.families.family import ConstraintFamily, Points, ProductFamily, Program
+from optlaws.synthesis.families.family import ConstraintFamily, Points, Program
 from optlaws.synthesis.method.contacts import completed, polished
-from optlaws.synthesis.method.discretised.answer import Answer
+from optlaws.synthesis.method.discretised.answer import BARRIER, Answer
 from optlaws.synthesis.method.discretised.linear import sharpened
-from optlaws.synthesis.method.newton import newton
 from optlaws.tolerances import EXCESS, SAME_PLACE
 
 _SAME_HEIGHT = 1e-9  # what an extremum's residual may be below that of a point on its hill: rounding of a series
-_WEIGHTLESS = 1e-7  # of the greatest multiplier: what is less may be a barrier's, not a contact's
-
-#: times the variables: contacts that are nearer to each other may be one that IPOPT's tolerance shows as two
-_OF_SPACING = 1.0
 
 
 def optimum_near(
     program: Program, holds: Callable[[Array], bool] | None, points: list[Points], answer: Answer
 ) -> ActiveSet | None:
     """The optimum that an answer is near to; None where the contacts are not plain yet."""
-    guess = _identified(program, points, answer)
-    optimum = polished(program, guess, holds)
-    if optimum is None:
-        fewer = guess.merged(_OF_SPACING / program.size)
-        optimum = polished(program, fewer, holds) if fewer is not guess else None
-    sharp = _sharpened(program, points, answer) if optimum is None else None
-    if sharp is None or completed(program, sharp) is not sharp:
+    optimum = polished(program, _identified(program, points, answer), holds)
+    if optimum is not None or program.curved:
         return optimum
+    sharp = sharpened(program, points, answer)
     # beside a contact the law may stick out where the optimum is flat
-    return sharp if program.violation(sharp.x) <= EXCESS else optimum
+    exact = sharp is not None and completed(program, sharp) is sharp and program.violation(sharp.x) <= EXCESS
+    return sharp if exact else None
 
 
 def as_answered(points: list[Points], answer: Answer) -> ActiveSet:
@@ -91,16 +83,5 @@ def _binding(rows: Array, weights: Array, residual: Array) -> NDArray[np.bool_]:
     length = np.linalg.norm(rows, axis=1)
     sizes = weights * length
     greatest = max(1.0, float(sizes.max(initial=0.0)))
-    binding: NDArray[np.bool_] = (sizes * length > -residual * greatest) & (sizes > _WEIGHTLESS * greatest)
+    binding: NDArray[np.bool_] = (sizes * length > -residual * greatest) & (sizes > BARRIER * greatest)
     return binding
-
-
-def _sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveSet | None:
-    """The optimum on the points; None where it is not convex there or the answer does not show it."""
-    if not program.curved:
-        return sharpened(program, points, answer)
-    products = [isinstance(family, ProductFamily) for family in program.families]
-    if any((w > _WEIGHTLESS).any() for w, curved in zip(answer.multipliers, products, strict=False) if curved):
-        return None
-    optimum = newton(program, as_answered(points, answer), deficient=True)
-    return optimum if optimum is not None and (optimum.multipliers >= 0.0).all() else None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import product
 from math import ceil, floor
 
@@ -11,12 +12,12 @@ import numpy as np
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.family import Points
+from optlaws.synthesis.families.family import LinearFamily, Points
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
 from optlaws.synthesis.method.discretised.linear import vertex_on_points
 from optlaws.synthesis.method.equations import contradiction
-from optlaws.synthesis.method.exchange import DEPTH, Outcome, answer_on_points, grounded, solve
+from optlaws.synthesis.method.exchange import Outcome, answer_on_points, solve
 from optlaws.synthesis.method.identified import as_answered
 from optlaws.synthesis.problem.constants import C, Functional
 from optlaws.synthesis.problem.problem import Problem
@@ -36,6 +37,7 @@ _FREE = 1e-15  # of a law's coordinate: what moves a value by less does not move
 _VALUE_ROUNDING = 1e-13  # of a value that all laws have: a bound that is nearer does not exclude it for certain
 
 _ROUNDS = 6
+_DEPTH = 1e5  # of an objective: beyond what laws of the field have
 _PLAIN = 2  # so few equations contradict each other whatever freedom the law has
 _MORE_FREEDOM = {PolynomialBasis: "A higher degree of Z", Basis: "More pieces, a higher degree, a lower continuity"}
 
@@ -88,7 +90,7 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
         )
     if falls_for_ever(problem):
         scale = problem.objective.scale
-        deep = f"{-DEPTH:.0f}" if scale == 1.0 else f"{-DEPTH * scale:g}"
+        deep = f"{-_DEPTH:.0f}" if scale == 1.0 else f"{-_DEPTH * scale:g}"
         msg = (
             f"{problem.minimise} has no least value: there are laws with {deep} and less. A bound on C, J or "
             "B from above, or end conditions of a higher order, help"
@@ -143,11 +145,14 @@ def falls_for_ever(problem: Problem) -> bool:
     if not problem.convex:
         return False
     model = model_of(problem)
-    program, bounded = model.program, grounded(model.program)
+    program = model.program
+    row = np.append(-program.objective, 0.0)[None, :]
+    ground = LinearFamily("objective at least", np.zeros(program.size), _DEPTH, (1.0,), (1.0, 1.0), series=row)
+    bounded = replace(program, families=(*program.families, ground))
     deepest = solve(bounded).optimum
     # so far down nothing shows which contacts are exact: a law that keeps all bounds is enough
     x = answer_on_points(bounded, first_points(bounded), None).x if deepest is None else deepest.x
-    return program.objective_at(x) < -0.99 * DEPTH and program.violation(x) < _DEEP_LAW_EXCESS
+    return program.objective_at(x) < -0.99 * _DEPTH and program.violation(x) < _DEEP_LAW_EXCESS
 
 
 def _contradiction(proof: Certificate) -> str:

@@ -11,11 +11,9 @@ from optlaws.lazy import casadi_lock
 from optlaws.numbers import Array
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
-from optlaws.synthesis.method.discretised.answer import Answer
+from optlaws.synthesis.method.discretised.answer import BARRIER, Answer
 from optlaws.synthesis.method.discretised.expressions import CONES, RowShape, order_of, shape_and_numbers
 from optlaws.tolerances import EMPTY_ROW
-
-_BARRIER = 1e-7  # of the greatest multiplier: what is less may be the barrier's
 
 _QUIET = {"print_time": False, "show_eval_warnings": False, "ipopt.print_level": 0, "ipopt.sb": "yes"}
 # nobody asks how the optimum depends on the parameters, which are all the rows
@@ -109,7 +107,7 @@ def solve_on_points(program: Program, points: list[Points], start: Array | None,
         success=result.success and result.status == "Solve_Succeeded",
         status=result.status,
         iterations=result.iterations,
-        weightless=_BARRIER,
+        weightless=BARRIER,
     )
 
 
