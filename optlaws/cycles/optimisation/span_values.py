@@ -469,7 +469,7 @@ def span_bound(span: LawSpan, solution: Solution, objective: CycleObjective) -> 
     """The lower bound of a span in SI units; without its law where that has the least of something else."""
     exact = is_exact(span, objective)
     value = span_value(span, objective.drive, objective.kind, mean=objective.mean)
-    if solution.problem.minimise not in {value.objective, value.constants[0].name}:
+    if solution.problem.objective != value.objective.expression():
         return max(_bound_of_drive(span, objective), -inf if value.summed else 0.0)
     if value.summed:
         proven = value.bound(solution.problem, solution.lower_bound if exact else -inf)
