@@ -4,7 +4,6 @@ import json
 import re
 import subprocess
 import sys
-from math import cos, pi
 from pathlib import Path
 
 import pytest
@@ -79,19 +78,6 @@ def test_a_machine_is_as_fast_as_its_slowest_axis(capsys: Capture, tmp_path: Pat
     assert "The machine is as fast as its slowest axis, slow: 135.72" in page
     facts = json.loads((tmp_path / "out" / "cycle.json").read_text("utf-8"))["axes"]
     assert facts["slide"]["period"] == pytest.approx(facts["slow"]["period"], rel=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("speed", "says"), [("0rpm", "must be above 0"), ("-5rpm", "must be above 0"), ("3mm", "is a length")]
-)
-def test_a_speed_that_no_table_turns_at_is_refused(speed: str, says: str, tmp_path: Path, capsys: Capture) -> None:
-    file = tmp_path / "old.csv"
-    rows = (f"{10 * k},{20.0 * (1.0 - cos(pi * k / 18.0))}" for k in range(37))
-    file.write_text("\n".join(rows), "utf-8")
-    words = ["cycle", str(file), "--unit", "mm", "--master", "deg"]
-    assert exit_code([*words, "--speed", "60rpm"]) == 0
-    assert exit_code([*words, f"--speed={speed}"]) == 2
-    assert says in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("law", ["better.json", "old.csv(tolerance=0.001)"])

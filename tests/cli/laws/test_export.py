@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.documents import ROOT
-from tests.internals.cli import BAD_INPUT, exit_code
+from tests.internals.cli import exit_code
 from tests.internals.exports import FORMATS
 
 Capture = pytest.CaptureFixture[str]
@@ -56,25 +56,3 @@ def test_the_formats_are_listed(capsys: Capture) -> None:
     assert max(map(len, lines)) < 100
     assert exit_code(["export", "--list", "--to", "csv"]) == 0
     assert "as asked: linear, cubic, akima" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["--to", "csv"], ["optlaws export LAW --to FORMAT", "--list"]),
-        ([*LAW], ["--to FORMAT"]),
-        ([*LAW, "--to", "cvs"], ["'cvs'", "'csv'"]),
-        ([*LAW[:1], "--to", "csv"], ["stroke", "35 mm"]),
-        ([*LAW, "--to", "csv", "--points", "many"], ["--points", "best", "many"]),
-        ([*LAW, "--to", "codesys-xyva", "--digits", "3"], ["codesys-xyva takes no digits"]),
-        ([*LAW, "--to", "csv", "--axis", "table"], ["--axis"]),
-        ([TABLE, "--to", "csv"], ["--axis", "table", "weld head"]),
-        ([TABLE, "--to", "csv", "--axis", "x"], ["--axis", "x", "weld head"]),
-        ([TABLE, "--to", "csv", "--stroke", "1 mm"], ["--stroke", "a cycle has its own"]),
-    ],
-)
-def test_what_is_wrong_is_named(arguments: list[str], words: list[str], capsys: Capture) -> None:
-    assert exit_code(["export", *arguments]) == BAD_INPUT
-    out, err = capsys.readouterr()
-    assert out == ""
-    assert all(word in err for word in words)

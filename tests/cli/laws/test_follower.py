@@ -91,45 +91,6 @@ def test_the_spectrum_is_drawn(capsys: Capture, tmp_path: Path) -> None:
         assert len(file.read_bytes()) > 5000
 
 
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        (
-            ["II", "--alpha", "7", "--frequency", "20", "--design-frequency", "20"],
-            "jerk j(0) = 120, so the velocity of the cam",
-        ),
-        (["IV", "--frequency", "20"], "need --alpha"),
-        (["cycloidal", "--alpha", "1", "--frequency", "20"], "no other takes it"),
-        (["IV", "--alpha", "20", "--frequency", "20"], "alpha"),
-        (["cycloidl", "--frequency", "20"], "did you mean 'cycloidal'"),
-        (["cycloidal"], "either --frequency or, with units, --natural-frequency such as '16.7 Hz' or --natural-period"),
-        (["cycloidal", "--frequency", "20", "--speed", "100 rpm"], "give no --frequency beside"),
-        (["cycloidal", "--frequency", "-20"], "frequency must be above 0"),
-        (["cycloidal", "--frequency", "20", "--damping", "-1"], "damping must be at least 0"),
-        (["cycloidal", "--frequency", "20", "--design-damping", "0.1"], "--design-damping needs --design-frequency"),
-        (["cycloidal", "--frequency", "20", "--plot", "x.pdf", "--spectrum", "1", "2"], "ends in .png or .svg"),
-        (["cycloidal", "--frequency", "20", "--spectrum", "2", "9"], "name the file too"),
-        (["cycloidal", "--frequency", "20", "--plot", "x.png", "--spectrum", "9", "2"], "two rising numbers above 0"),
-        (["missing.json", "--frequency", "20"], "missing.json"),
-        (["cycloidal", "--frequencye", "20"], "--frequency"),
-    ],
-)
-def test_nonsense_is_refused(capsys: Capture, arguments: list[str], says: str) -> None:
-    code, out, err = called(capsys, *arguments)
-    assert (code, out) == (2, "")
-    assert err.startswith("optlaws: ")
-    assert says in err
-
-
-def test_a_file_that_is_no_law_is_refused(capsys: Capture, tmp_path: Path) -> None:
-    file = tmp_path / "law.json"
-    for content, says in (("{", "is not JSON"), ("[]", "holds no law"), ('{"law": {}}', "a law has a 'kind'")):
-        file.write_text(content, "utf-8")
-        code, _, err = called(capsys, file, "--frequency", 20)
-        assert code == 2
-        assert says in err
-
-
 MACHINE = ("--natural-frequency", "16.7 Hz", "--speed", "105 rpm", "--rise", "120 deg")
 
 
@@ -155,39 +116,6 @@ def test_a_stroke_with_its_unit_gives_machine_units(capsys: Capture) -> None:
     assert code == 0
     assert "residual displacement, m" in out
     assert printed(capsys, "modified sine", *MACHINE)["frequency"] == data["frequency"]
-
-
-@pytest.mark.parametrize(
-    ("options", "why"),
-    [
-        ((*MACHINE, "--frequency", 20), "give no --frequency"),
-        (("--frequency", 20, "--stroke", "35mm"), "--stroke needs the time"),
-        (("--natural-frequency", "16.7 Hz"), "give duration"),
-        (("--natural-frequency", 16.7, "--time", "0.1 s"), "without a unit"),
-        (("--natural-frequency", "60 ms", "--time", "0.1 s"), "--natural-frequency must be a frequency"),
-        ((*MACHINE, "--natural-period", "60 ms"), "and not both"),
-        (("--speed", "105 rpm", "--rise", "120 deg"), "give either --frequency or, with units, --natural-frequency"),
-    ],
-)
-def test_what_is_wrong_with_quantities_is_said(capsys: Capture, options: tuple[object, ...], why: str) -> None:
-    code, _, err = called(capsys, "modified sine", *options)
-    assert code == 2
-    assert why in err
-
-
-@pytest.mark.parametrize(
-    ("command", "remedy"),
-    [
-        (["follower", "III(7.2)"], "one in Hz is --natural-frequency, with --duration or --speed"),
-        (["compare", "cycloidal", "345"], "a frequency with a unit needs the duration of the motion"),
-    ],
-)
-def test_a_frequency_in_hertz_is_refused_with_the_remedy(capsys: Capture, command: list[str], remedy: str) -> None:
-    assert app.exit_code([*command, "--frequency", "16.7Hz"]) == 2
-    text = capsys.readouterr().err
-    assert "'16.7Hz'" in text
-    assert remedy in text
-    assert app.exit_code([*command, "--frequency", "20"]) == 0
 
 
 def test_laws_are_compared_at_a_frequency_in_hertz_beside_the_duration(capsys: Capture) -> None:

@@ -102,34 +102,6 @@ def test_a_law_is_written_as_a_table_and_drawn(capsys: pytest.CaptureFixture[str
     assert picture.read_text("utf-8").startswith("<?xml")
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["law", "modifed sine"], "did you mean 'modified sine'"),
-        (["law", "0399"], "50 hundredths"),
-        (["law", "III"], "family III need --alpha or --peak-velocity: alpha is from -6 to 12"),
-        (["law", "III", "--alpha", "13"], "between -6 and 12"),
-        (["law", "III", "--alpha", "1", "--peak-velocity", "2"], "got alpha and B"),
-        (["law", "cubic", "--alpha", "1"], "choose a member of a family"),
-        (["law", "cubic", "--at", "2"], "k must be in [0, 1]"),
-        (["law", "III(13)"], "between -6 and 12"),
-        (["law", "III(seven)"], "such as III(7.2) or III(B=1.8), got 'III(seven)'"),
-        (["law", "III(C=7)"], "by alpha or B"),
-        (["law", "III(7.2)", "--alpha", "1"], "choose a member of a family"),
-        (["law", "nowhere.json"], "cannot read nowhere.json"),
-        (["law", "cubic", "--samples", "5"], "--csv FILE"),
-        (["law", "cubic", "--plot", "cubic.pdf"], ".png or .svg"),
-        (["law", "cubic", "--plot", "."], ".png or .svg"),
-        (["catalogue", "qwerty"], "no law is like 'qwerty'"),
-    ],
-)
-def test_wrong_input_is_refused(capsys: pytest.CaptureFixture[str], arguments: list[str], message: str) -> None:
-    assert exit_code(arguments) == 2
-    captured = capsys.readouterr()
-    assert message in captured.err
-    assert captured.out == ""
-
-
 @pytest.mark.filterwarnings("default::optlaws.NoisyTable")
 def test_a_measured_table_is_told_to_be_noisy_unless_its_tolerance_is_given(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
@@ -159,15 +131,3 @@ def test_a_measured_table_is_told_to_be_noisy_unless_its_tolerance_is_given(
     rise = Rise("35 mm", "0.1 s", law=law)
     cycle = Cycle([rise, Dwell("0.1 s"), Return(duration="0.1 s", law=law)], period="0.3 s")
     assert cycle(0.025) == pytest.approx(0.035 * read_law(law)(0.25), rel=1e-12)
-
-
-@pytest.mark.parametrize("data", [{"minimise": "C", "front": [1]}, {"law": [1]}, [], {}])
-def test_a_file_of_another_kind_is_named_with_what_it_holds(
-    data: object, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    file = tmp_path / "other.json"
-    file.write_text(json.dumps(data), "utf-8")
-    assert exit_code(["law", str(file)]) == 2
-    text = capsys.readouterr().err
-    assert f"{file} holds no law" in " ".join(text.split())
-    assert "format of a law" not in text
