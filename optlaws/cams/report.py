@@ -89,7 +89,7 @@ class CamReport:
         beside = {} if self.beside is None else {row.name: row for row in self.beside.rows}
         beside.pop("prime circle", None)  # it is the same
         noted = [row._replace(note=beside.pop(row.name).note) if row.name in beside else row for row in rows]
-        worse = [Row("remark", self.beside.remark)] if self.beside is not None and self.beside.remark else []
+        worse = [] if self.beside is None else self.beside.remark_rows
         return Summary([*noted, *beside.values(), *worse], at="deg")
 
     @kept_property

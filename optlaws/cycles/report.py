@@ -93,8 +93,8 @@ class CycleReport:
 
     @property
     def worse(self) -> list[Row]:
-        """The remark that modified sine is better in the objective; nothing where it is not."""
-        return [] if self.beside is None or not self.beside.remark else [Row("remark", self.beside.remark)]
+        """The remarks on what modified sine is better in; nothing where it is not."""
+        return [] if self.beside is None else self.beside.remark_rows
 
     def motion(self, count: int) -> ReportTable:
         """Angle, time, position, velocity, acceleration and jerk at equal steps over the cycle.

@@ -15,6 +15,9 @@ from optlaws.shown.summary import Row
 _SHOWN = {"m/s": ("mm/s", 1e3), "rad/s": ("deg/s", degrees(1.0))}
 _REMEDY = "give them a higher degree, or wider limits"
 _SAME = 5e-4  # of a value: a difference below it is no whole tenth of a per cent
+_FAR = 2.0  # times the usual value: what is above is remarked
+#: what limits of cycles and moves bound, as a peak, a root mean square or over the whole
+_LIMITED = {"velocity", "acceleration", "jerk", "snap", "force", "torque", "power", "energy"}
 
 
 class Difference(NamedTuple):
@@ -75,8 +78,10 @@ class Differences:
     ['peak power', 24.8, 22.2, '-10.5 %', 'W']
     >>> beside.rows[0].note
     '-10.5 %: modified sine has 24.8 W'
-    >>> Differences("modified sine", values, "peak jerk").remark
-    'modified sine has 12.3 % less peak jerk than these laws: give them a higher degree, or wider limits'
+    >>> Differences("modified sine", values, "peak jerk").remarks
+    ('modified sine has 12.3 % less peak jerk than these laws: give them a higher degree, or wider limits',)
+    >>> Differences("modified sine", [Difference("jerk", "m/s³", 2630.0, 38293.0)], "energy").remarks
+    ('jerk is 14.6 times that of modified sine: limit the jerk to less',)
     """
 
     usual: str
@@ -88,13 +93,27 @@ class Differences:
         object.__setattr__(self, "values", ordered)
 
     @property
-    def remark(self) -> str:
-        """That the usual law is better in the objective, and what to do about it; empty where it is not."""
-        change = next((each.change for each in self.values if each.name == self.objective), None)
-        if change is None or change < _SAME:
-            return ""
-        less = 100.0 * change / (1.0 + change)
-        return f"{self.usual} has {less:.1f} % less {self.objective} than these laws: {_REMEDY}"
+    def remarks(self) -> tuple[str, ...]:
+        """What the usual law is better in by far, or in the objective at all, each with what to do about it."""
+        remarks, far = list[str](), list[Difference]()
+        for each in self.values:
+            change = each.change or 0.0
+            if each.name == self.objective and change >= _SAME:
+                less = 100.0 * change / (1.0 + change)
+                remarks.append(f"{self.usual} has {less:.1f} % less {each.name} than these laws: {_REMEDY}")
+            elif each.name != self.objective and 1.0 + change > _FAR:
+                far.append(each)
+        if far:
+            known = " and ".join(f"{each.name} is {1.0 + (each.change or 0.0):.3g} times" for each in far)
+            names = [each.name.removeprefix("peak ") for each in far if each.name.split()[-1] in _LIMITED]
+            of = " and the ".join(names or ["acceleration", "jerk"])
+            remarks.append(f"{known} that of {self.usual}: limit the {of} to less")
+        return tuple(remarks)
+
+    @property
+    def remark_rows(self) -> list[Row]:
+        """The remarks as rows of facts."""
+        return [Row("remark", remark) for remark in self.remarks]
 
     @property
     def rows(self) -> list[Row]:
@@ -132,7 +151,7 @@ class Differences:
         if not self.values:
             return Section()
         heading = f"Compared with {self.usual}"
-        note = f"{self.remark[0].upper()}{self.remark[1:]}." if self.remark else ""
+        note = "\n\n".join(f"{remark[0].upper()}{remark[1:]}." for remark in self.remarks)
         return Section(heading, self.rows, self.table, self.data, note=note, digits=5)
 
 

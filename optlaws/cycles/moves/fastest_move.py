@@ -376,7 +376,7 @@ class MoveReport:
         """The least time with its proof, and the use of each limit with the time that a higher one saves."""
         rows = (Row(each.name, each.value, each.unit, note=self._note(each)) for each in self.limits_taken)
         beside = self.move.beside
-        worse = [Row("remark", beside.remark)] if beside is not None and beside.remark else []
+        worse = [] if beside is None else beside.remark_rows
         return Summary([*self.move.proof_rows(), *rows, *worse])
 
     def _note(self, taken: LimitTaken) -> str:
