@@ -243,7 +243,12 @@ def test_the_fastest_cycle_and_the_fastest_move_never_turn_back_alike() -> None:
     move = fastest(Problem(order=3), stroke="35 mm", limits=limits)
     assert found.status == "optimal"
     assert found.segments[0].least == pytest.approx(move.duration, rel=1e-8)
+
+
+@pytest.mark.parametrize("smooth", [{}, pytest.param({"jerk": "900 m/s^3"}, marks=pytest.mark.long)], ids=str)
+def test_joined_motions_of_the_fastest_cycle_never_turn_back(smooth: dict[str, str]) -> None:
     ways = [Dwell("90 deg"), Free("30 mm", "90 deg"), Free("5 mm", "60 deg"), Return("35 mm")]
+    limits: dict[str, Any] = {"velocity": ("0 m/s", "1 m/s"), "acceleration": "20 m/s^2", **smooth}
     several = cycle(segments=ways, limits=limits).fastest().cycle
     assert max(backwards(several, i) for i in range(len(several.pieces))) < 1e-8
 
