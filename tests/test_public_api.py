@@ -12,6 +12,7 @@ from typing import Any, Literal, get_args, get_origin
 import pytest
 
 import optlaws
+import optlaws.laws
 import optlaws.typing
 from docs._ext.made_parts import with_parts
 from optlaws import InputError
@@ -71,7 +72,8 @@ def test_the_public_names_are_sorted_and_exist() -> None:
 
 
 def test_every_public_name_has_a_summary_and_an_example() -> None:
-    texts = {name: own_documentation(getattr(optlaws, name)) for name in DOCUMENTED}
+    names = {*DOCUMENTED, *vars(optlaws.laws)["__all__"]}
+    texts = {name: own_documentation(getattr(optlaws, name, None) or getattr(optlaws.laws, name)) for name in names}
     assert [name for name, text in texts.items() if not text.partition("\n")[0].strip() or ">>> " not in text] == []
 
 
