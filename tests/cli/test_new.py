@@ -26,59 +26,15 @@ Capture = pytest.CaptureFixture[str]
 
 #: numbers of a person, by kind
 OWN = {
-    "cycle": [
-        "--stroke",
-        "90 deg",
-        "--rise",
-        "0.1 s",
-        "--speed",
-        "100rpm",
-        "--mass",
-        "0.02 kg m^2",
-        "--velocity",
-        "300 rpm",
-    ],
-    "cam": [
-        "--stroke",
-        "20mm",
-        "--prime-radius",
-        "70 mm",
-        "--offset",
-        "5 mm",
-        "--mass",
-        "2 kg",
-        "--jerk",
-        "9000 m/s^3",
-    ],
-    "machine": [
-        "--stroke",
-        "4 rad",
-        "--duration",
-        "0.1 s",
-        "--frequency",
-        "56 Hz",
-        "--sway",
-        "5e-3 rad",
-        "--damping",
-        "0",
-    ],
-    "drive": ["--stroke", "30 deg", "--friction", "4 N m", "--ratio", "25", "--period", "0.8 s"],
-    "mechanism": ["--crank", "80 mm", "--rod", "0.3 m", "--load", "1.2 kN"],
-    "fastest": ["--stroke", "90 deg", "--velocity", "200 rpm", "--frequency", "20 Hz"],
-    "interlock": [
-        "--stroke",
-        "80 mm",
-        "--index",
-        "60 mm",
-        "--clear",
-        "40 mm",
-        "--within",
-        "0.5 mm",
-        "--rise",
-        "70 deg",
-    ],
-    "law": ["--velocity", "0.62 m/s", "--jerk", "2431 m/s^3", "--order", "4"],
-    "study": ["--minimise", "rms_c", "--steps", "2", "--from", "1.6"],
+    "cycle": "--stroke '90 deg' --rise '0.1 s' --speed 100rpm --mass '0.02 kg m^2' --velocity '300 rpm'",
+    "cam": "--stroke 20mm --prime-radius '70 mm' --offset '5 mm' --mass '2 kg' --jerk '9000 m/s^3'",
+    "machine": "--stroke '4 rad' --duration '0.1 s' --frequency '56 Hz' --sway '5e-3 rad' --damping 0",
+    "drive": "--stroke '30 deg' --friction '4 N m' --ratio 25 --period '0.8 s'",
+    "mechanism": "--crank '80 mm' --rod '0.3 m' --load '1.2 kN'",
+    "fastest": "--stroke '90 deg' --velocity '200 rpm' --frequency '20 Hz'",
+    "interlock": "--stroke '80 mm' --index '60 mm' --clear '40 mm' --within '0.5 mm' --rise '70 deg'",
+    "law": "--velocity '0.62 m/s' --jerk '2431 m/s^3' --order 4",
+    "study": "--minimise rms_c --steps 2 --from 1.6",
 }
 
 
@@ -102,7 +58,7 @@ def command_of(out: str) -> list[str]:
 
 
 SLOW = {"cycle", "machine", "mechanism", "study"}
-AS_WRITTEN = [(kind, options) for kind in STARTERS for options in ([], OWN[kind])]
+AS_WRITTEN = [(kind, options) for kind in STARTERS for options in ("", OWN[kind])]
 
 
 @pytest.mark.parametrize(
@@ -112,13 +68,13 @@ AS_WRITTEN = [(kind, options) for kind in STARTERS for options in ([], OWN[kind]
         for kind, options in AS_WRITTEN
     ],
 )
-def test_the_file_runs_as_written_and_what_it_writes_is_proven(kind: str, options: list[str], capsys: Capture) -> None:
-    assert exit_code(["new", kind, "my file.toml", *options]) == 0
+def test_the_file_runs_as_written_and_what_it_writes_is_proven(kind: str, options: str, capsys: Capture) -> None:
+    assert exit_code(["new", kind, "my file.toml", *shlex.split(options)]) == 0
     command = command_of(capsys.readouterr().out)
     assert exit_code(command) == 0
     assert "error" not in capsys.readouterr().out
     text = Path("my file.toml").read_text("utf-8")
-    for given in options[1::2]:
+    for given in shlex.split(options)[1::2]:
         if kind not in {"law", "machine", "study"}:
             assert f'{given}"' in text or f"= {given}\n" in text
     written = list(Path().glob("results/my file/*"))
@@ -128,7 +84,7 @@ def test_the_file_runs_as_written_and_what_it_writes_is_proven(kind: str, option
 
 
 def test_numbers_of_a_machine_become_bounds_of_a_law(capsys: Capture) -> None:
-    assert exit_code(["new", "law", *OWN["law"], "--duration", "50 ms", "--acceleration", "98 m/s^2"]) == 2
+    assert exit_code(["new", "law", *shlex.split(OWN["law"]), "--duration", "50 ms", "--acceleration", "98 m/s^2"]) == 2
     assert "--velocity must be above the mean velocity, 0.7 m/s" in capsys.readouterr().err
     assert exit_code(["new", "law", "--velocity", "1.4 m/s", "--duration", "50 ms", "--acceleration", "98 m/s^2"]) == 0
     text = Path("law.toml").read_text("utf-8")
@@ -151,45 +107,6 @@ def test_entries_left_out_are_comments_with_examples_of_the_right_kind(capsys: C
         Path("c.toml").write_text(switched, "utf-8")
         capsys.readouterr()
         assert exit_code(["cycle", "c.toml", "--json"]) == code
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (
-            ["cycle", "--stroke", "35"],
-            "--stroke must be a length such as '35 mm' or an angle such as '45 deg', got '35' without a unit",
-        ),
-        (["cycle", "--stroke", "35 kg"], "--stroke must be a length such as '35 mm' or an angle"),
-        (["cycle", "--stroke", "0 mm"], "--stroke must be above 0"),
-        (["cycle", "--stroke", "90 deg", "--velocity", "1 m/s"], "angular velocity"),
-        (["cycle", "--mass", "2 kg", "--stroke", "90 deg"], "--mass must be a moment of inertia"),
-        (["cycle", "--dwell", "200 deg"], "cycle.toml: axis slide: "),
-        (["cycle", "--roller", "12 mm"], "cycle: unknown option '--roller'"),
-        (["cam", "--presure-angle", "30 deg"], "did you mean '--pressure-angle'?"),
-        (["law", "--minimise", "E"], "unknown --minimise 'E'"),
-        (["law", "--order", "2.5"], "--order must be a whole number from 1 "),
-        (["machine", "--damping", "much"], "--damping must be a number from 0 on, got 'much'"),
-        (["study", "--from", "2", "--to", "1.5"], "--from and --to are peak velocities above 1"),
-        (["study", "--from", "0.9"], "--from must be above 1, got 0.9"),
-        (["cam", "--stroke", "90 deg"], "--stroke must be a length"),
-        (["machine", "--spread", "2"], "--spread must be at most 1, got 2"),
-        (["drive", "--stroke", "40 mm"], "--stroke must be an angle"),
-        (["mechanism", "--rod", "50 mm"], "mechanism.toml: axis crank: mechanism: "),
-        (["mechanism", "--mass", "2 kg m^2"], "--mass must be a mass"),
-        (["fastest", "--stroke", "90 deg", "--jerk", "9 m/s^3"], "--jerk must be an angular jerk"),
-        (["interlock", "--clear", "60 mm"], "--clear must be below --stroke, 50 mm, got 60 mm"),
-        (["interlock", "--within", "1 mm"], "--within must be an angle"),
-        (["cycle", "slide.txt"], "a problem file's name ends in .toml"),
-        (["lever"], "lever"),
-    ],
-)
-def test_what_cannot_be_is_refused_and_nothing_written(arguments: list[str], message: str, capsys: Capture) -> None:
-    assert exit_code(["new", *arguments]) == 2
-    out, err = capsys.readouterr()
-    assert out == ""
-    assert message in err
-    assert not list(Path().iterdir())
 
 
 def test_nothing_is_written_over(capsys: Capture) -> None:
