@@ -19,8 +19,8 @@ _TURNS = 3
 _CHANDRUPATLA = 100
 #: how near its ends, in shares of a bracket, the first place is
 _EDGE = 0.05
-#: steps of a secant to a falling root, and how far from the ends of a bracket in shares of it
-_FALLING, _BEYOND = 40, 1e-3
+#: steps of a secant to a falling root
+_FALLING = 40
 
 
 def sign_changes(functions: Callable[[Array], Array], edges: Sequence[float], count: int) -> Array:
@@ -158,8 +158,8 @@ def falling_root(
 ) -> float:
     """A place at which a falling excess is not above 0, at most `met` beyond one at which it is; infinite without one.
 
-    Sought from a place on in growing steps, then by the secant and a little beyond it; where the excess is infinite it
-    is halved. So far from the first place as `widest`, nothing more is sought: the last place is what is known.
+    Sought from a place on in growing steps, then by the secant, at least half of `met` from either end; an infinite
+    excess halves the bracket. So far from the first place as `widest`, the last place is what is known.
 
     >>> (
     ...     round(float(falling_root(lambda x: np.exp(-x) - 2.0, 0.0, 0.5, 1e-12)), 9),
@@ -177,19 +177,20 @@ def falling_root(
         high, low, wider = low, low - wider, 2.0 * wider
         if low < begin - widest:
             return high
-    above, below = excess(low), excess(high)
+    above, below, kept = excess(low), excess(high), ""
     for _ in range(_FALLING):
         if high - low <= met or below == 0.0:
             break
         middle = 0.5 * (low + high)
         if isfinite(above):
             middle = high - below * (high - low) / (below - above)
-            middle = min(max(middle, low + _BEYOND * (high - low)), high - _BEYOND * (high - low))
+            middle = min(max(middle, low + 0.5 * met), high - 0.5 * met)
         value = excess(middle)
+        # an end that stays twice counts half (Illinois)
         if value > 0.0:
-            low, above, below = middle, value, below * 0.5
+            low, above, below, kept = middle, value, below * (0.5 if kept == "high" else 1.0), "high"
         else:
-            high, below, above = middle, value, above * 0.5
+            high, below, above, kept = middle, value, above * (0.5 if kept == "low" else 1.0), "low"
     return high
 
 
