@@ -25,12 +25,7 @@ HANDED_UP = {
     "plot": ("optlaws.plots.",),
     "_plot": ("optlaws.plots.",),
     "export": ("optlaws.exports.", "optlaws.synthesis.proven.fewest_laws"),
-    "report": (
-        "optlaws.cams.report.",
-        "optlaws.cycles.report.",
-        "optlaws.laws.report.",
-        "optlaws.synthesis.report.",
-    ),
+    "report": ("optlaws.cams.report.", "optlaws.cycles.report.", "optlaws.laws.report.", "optlaws.synthesis.report."),
     "pieces": ("optlaws.exports.",),
     "polynomials": ("optlaws.exports.",),
 }

@@ -78,10 +78,7 @@ def test_every_path_and_module_that_a_document_names_is_there() -> None:
 @pytest.mark.parametrize(
     ("page", "names"),
     [
-        (
-            "`optlaws/laws/law.py`, `laws/law.py`, `tests/jobs/`, `optlaws.laws`, `python -m tests.contracts.frozen`",
-            [],
-        ),
+        ("`optlaws/laws/law.py`, `laws/law.py`, `tests/jobs/`, `optlaws.laws`, `python -m tests.contracts.frozen`", []),
         ("`optlaws.synthesize`, `optlaws.errors.InputError`, `optlaws.catalogue.search`, `out/law.json`", []),
         ("`optlaws/export/csv.py` and `synthesis/exchange.py`", ["optlaws/export/csv.py", "synthesis/exchange.py"]),
         ("from optlaws.studies.sweeps import sweep", ["optlaws.studies.sweeps"]),
@@ -134,10 +131,7 @@ def test_no_module_has_two_places_in_the_reference() -> None:
 
 def test_a_console_block_is_split_into_commands_and_their_output() -> None:
     block = "$ optlaws run a.toml \\\n    --quiet\n$ optlaws list\none\n\ntwo\n"
-    assert list(commands(block)) == [
-        Command("optlaws run a.toml --quiet"),
-        Command("optlaws list", ["one", "", "two"]),
-    ]
+    assert list(commands(block)) == [Command("optlaws run a.toml --quiet"), Command("optlaws list", ["one", "", "two"])]
 
 
 def test_a_console_block_that_begins_with_output_is_refused() -> None:

@@ -25,8 +25,4 @@ def test_an_example_has_a_title_a_sentence_and_few_lines(example: Path) -> None:
     assert len([line for line in code.splitlines() if line.strip()]) <= 18
     assert {
         node.module.partition(".")[0] for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module
-    } <= {
-        "optlaws",
-        "matplotlib",
-        "dataclasses",
-    }
+    } <= {"optlaws", "matplotlib", "dataclasses"}

@@ -11,18 +11,7 @@ import pytest
 from tests.documents import ROOT
 from tests.imports import Import, cycles, declared, imports, modules
 
-BASE = {
-    "echo",
-    "errors",
-    "files",
-    "kept",
-    "lazy",
-    "numbers",
-    "sentences",
-    "shown",
-    "spelling",
-    "tolerances",
-}
+BASE = {"echo", "errors", "files", "kept", "lazy", "numbers", "sentences", "shown", "spelling", "tolerances"}
 KNOWN = BASE | {"numerics", "entries"}
 CORE = KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "motion", "cycles", "exports", "cams", "verification"}
 MAY_IMPORT = {
@@ -263,10 +252,7 @@ def write(root: Path, sources: dict[str, str]) -> Path:
         ("laws/law.py", "from ..synthesis import solve"),
         ("laws/law.py", "from optlaws import synthesis"),
         ("laws/__init__.py", "from .. import mechanisms"),
-        (
-            "laws/law.py",
-            "import typing\nif typing.TYPE_CHECKING:\n    import optlaws.synthesis",
-        ),
+        ("laws/law.py", "import typing\nif typing.TYPE_CHECKING:\n    import optlaws.synthesis"),
         ("laws/law.py", "from optlaws import MotionLaw"),
         ("synthesis/solve.py", "import optlaws.mechanisms.machine.follower"),
         ("synthesis/solve.py", "from optlaws.plots import style"),

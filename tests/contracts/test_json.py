@@ -147,10 +147,7 @@ def values(jumping: Solution) -> dict[str, Any]:
         "LimitedMove": moved.move,
         "DriveSheet": optlaws.Drive(optlaws.rack("20 mm", "5 kg"), optlaws.Motor(0.0)).sheet("0050", 0.0, 1.0, 1.0),
         "Effort": optlaws.Cycle(
-            [optlaws.Rise("1 rad", "1 s", law="0050")],
-            period="1 s",
-            advance="1 rad",
-            drive={"inertia": "1 kg m^2"},
+            [optlaws.Rise("1 rad", "1 s", law="0050")], period="1 s", advance="1 rad", drive={"inertia": "1 kg m^2"}
         ).effort,
         "SegmentEffort": optlaws.Cycle(
             [optlaws.Rise("1 rad", "1 s", law="0050")], period="1 s", advance="1 rad", drive={"inertia": "1 kg m^2"}

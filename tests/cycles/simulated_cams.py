@@ -157,10 +157,7 @@ def periodic_spline(rng: np.random.Generator, stroke: float, advance: float) -> 
     y = 0.5 * stroke * np.sin(2.0 * np.pi * np.arange(count + 1) / count) + 0.1 * stroke * rng.uniform(-1, 1, count + 1)
     y[-1] = y[0]
     curve: BSpline = make_interp_spline(x, y, int(rng.choice([3, 5])), bc_type="periodic")
-    return (
-        lambda at: curve(np.mod(at, TURN)) + advance * at / TURN,
-        greatest(curve.derivative(2), 0.0, TURN),
-    )
+    return (lambda at: curve(np.mod(at, TURN)) + advance * at / TURN, greatest(curve.derivative(2), 0.0, TURN))
 
 
 def endless(rng: np.random.Generator, stroke: float) -> tuple[Motion, float]:

@@ -334,10 +334,7 @@ def test_a_law_that_is_a_value_goes_through_a_problem_file(tmp_path: Path) -> No
         ({"segments": [], "format": "other"}, "format 'optlaws cycle 1', got 'other'"),
         ({"segments": [{"kind": "dwel"}]}, "segment 1: unknown kind of a segment 'dwel'; did you mean 'dwell'"),
         ({"segments": [{"kind": "dwell", "by": "3 mm"}]}, "segment 1: unknown entry of a dwell 'by'; known are"),
-        (
-            {"segments": [{"kind": "dwell"}], "sped": "3 rpm"},
-            "unknown entry of a stored cycle 'sped'; did you mean",
-        ),
+        ({"segments": [{"kind": "dwell"}], "sped": "3 rpm"}, "unknown entry of a stored cycle 'sped'; did you mean"),
     ],
 )
 def test_what_is_no_stored_cycle_is_refused(data: dict[str, Any], says: str) -> None:

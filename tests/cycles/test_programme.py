@@ -65,11 +65,7 @@ LEVEL = [Rise("35 mm", "180 deg"), Return("30 mm", "180 deg")]
         ([Dwell(), plain("dwell", duration=["3 deg"])], {}, "segment 2: duration must be a list of 2 at least"),
         ([plain("dwel")], {}, "segment 1: unknown kind of a segment 'dwel'; did you mean 'dwell'"),
         ([plain("rise", via=[])], {}, "segment 1: unknown entry of a rise 'via'; known are by, duration, end_vel"),
-        (
-            [plain("constant velocity")],
-            {},
-            "segment 1: a constant velocity needs its velocity, such as",
-        ),
+        ([plain("constant velocity")], {}, "segment 1: a constant velocity needs its velocity, such as"),
         (
             [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return(duration="100 deg")],
             {},
@@ -92,16 +88,8 @@ LEVEL = [Rise("35 mm", "180 deg"), Return("30 mm", "180 deg")]
             {},
             "segment 1: law: it must be a name of the catalogue, a formula, a JSON or CSV file, 'optimal'.* got 5",
         ),
-        (
-            [plain("rise", limits={"sped": "1 m/s"})],
-            {},
-            "segment 1: limits: unknown limit 'sped'; known are",
-        ),
-        (
-            [plain("rise", limits={"energy": "1 J"})],
-            {},
-            "segment 1: limits: energy is of the whole cycle: give",
-        ),
+        ([plain("rise", limits={"sped": "1 m/s"})], {}, "segment 1: limits: unknown limit 'sped'; known are"),
+        ([plain("rise", limits={"energy": "1 J"})], {}, "segment 1: limits: energy is of the whole cycle: give"),
         ([plain("rise", limits={"snap": "1 m/s"})], {}, "segment 1: limits: snap must be a snap such as '50000"),
         ([Rise("35 mm", "90 deg"), Return()], {"minimise": "accel"}, "minimise: unknown objective"),
         ([Rise("35 mm", "90 deg"), Return()], {"drive": {"mass": "-2 kg"}}, "drive: mass must be at least 0"),

@@ -60,10 +60,7 @@ def test_scipy_draws_the_same_curves() -> None:
     inside = np.linspace(x[0], x[-1], 300)
     slopes: Any = ((1, 2.0), (1, -1.0))
     theirs = {
-        "clamped": (
-            cubic_spline(x, values[0], slopes=(2.0, -1.0)),
-            CubicSpline(x, values[0], bc_type=slopes),
-        ),
+        "clamped": (cubic_spline(x, values[0], slopes=(2.0, -1.0)), CubicSpline(x, values[0], bc_type=slopes)),
         "natural": (cubic_spline(x, values[0], "natural"), CubicSpline(x, values[0], bc_type="natural")),
         "akima": (akima(x, values[0]), Akima1DInterpolator(x, values[0])),
         "c1": (hermite(x, values[:2]), CubicHermiteSpline(x, values[0], values[1])),

@@ -66,10 +66,7 @@ def test_commands_of_a_job_take_packaged_problems_by_name_and_by_place(
     assert exit_code(["cycle", "problems/cycle_savin_design.toml"]) == 0
     assert (tmp_path / "results" / "cycle_savin_design" / "cycle.md").is_file()
     capsys.readouterr()
-    for command in (
-        ["cycle", "problems/cam_press.toml"],
-        ["export", "cam_press", "--to", "csv"],
-    ):
+    for command in (["cycle", "problems/cam_press.toml"], ["export", "cam_press", "--to", "csv"]):
         assert exit_code(command) == 2
         assert f"`optlaws run {command[1]}` does it" in capsys.readouterr().err
     assert [file.name for file in tmp_path.rglob("*.md")] == ["cycle.md"]

@@ -210,11 +210,7 @@ EXAMPLES = {
             ('name = "slide"', 'name = "about"', "none is about or fastest"),
             ('["100 mm", "90 mm"]', '["100 mm"]', "stroke"),
             ('velocity = "1 m/s"', 'speed = "1 m/s"', "move slide: limits: unknown limit 'speed'"),
-            (
-                '["-8 m/s^2", "12 m/s^2"]',
-                '["8 m/s^2", "12 m/s^2"]',
-                "limits: acceleration: the least must be below 0",
-            ),
+            ('["-8 m/s^2", "12 m/s^2"]', '["8 m/s^2", "12 m/s^2"]', "limits: acceleration: the least must be below 0"),
             (
                 '"300 m/s^3" }\n[[move]]',
                 '"300 m/s^3" }\nfront = { minimise = ["jerk"] }\n[[move]]',

@@ -38,9 +38,7 @@ def free_function_law(seed: int, order: int, terms: int) -> PolynomialLaw:
         for n, factor in enumerate(z):
             powers[order + i + n] += value * factor
     base = smoothstep(order).exact_powers()
-    return PolynomialLaw.from_powers(
-        [power + (base[n] if n < len(base) else 0) for n, power in enumerate(powers)],
-    )
+    return PolynomialLaw.from_powers([power + (base[n] if n < len(base) else 0) for n, power in enumerate(powers)])
 
 
 def cut(law: PolynomialLaw, *breaks: float) -> PiecewiseLaw:

@@ -152,10 +152,7 @@ def test_a_cam_of_an_optimal_law() -> None:
     [
         (savin("I", 0.0), r"acceleration c\(0\) = 6, so the displacement of the cam would jump there.*order 4"),
         (savin("I", -10.0), r"jerk j\(0\) = 60, so the velocity of the cam would jump"),
-        (
-            savin("II", 7.0),
-            r"jerk j\(0\) = 120, so the velocity of the cam would jump there; use a law",
-        ),
+        (savin("II", 7.0), r"jerk j\(0\) = 120, so the velocity of the cam would jump there; use a law"),
         (smoothstep(1), r"velocity b\(0\) = 1, so the displacement"),
         (smoothstep(3), r"jerk j\(0\) = 60"),
         (catalogue["modified trapezoid"].law, r"jerk j\(0\) = 61\.4"),

@@ -124,11 +124,7 @@ def test_a_cluster_without_workers_is_said(tmp_path: Path, monkeypatch: pytest.M
 
 
 def test_tight_bounds_are_searched_and_power_is_never_continued(tmp_path: Path) -> None:
-    asked = {
-        "problem": {"order": 4, "degree": 5, "minimise": "D"},
-        "vary": {"B": [1.6, 1.65]},
-        "bound": "tight",
-    }
+    asked = {"problem": {"order": 4, "degree": 5, "minimise": "D"}, "vary": {"B": [1.6, 1.65]}, "bound": "tight"}
     for point in serially(asked, tmp_path):
         assert point.status == "optimal"
         assert point.objective == synthesize(point.problem, bound="tight").objective

@@ -154,8 +154,7 @@ def _pieces(problem: Problem, basis: Pieces) -> Laws:
     size, count = basis.degree + 1, len(basis.breaks) - 1
     total = size * count
     plain = Laws(
-        basis.breaks,
-        [np.pad(np.eye(size), ((0, 0), (size * i, total - size * (i + 1) + 1))) for i in range(count)],
+        basis.breaks, [np.pad(np.eye(size), ((0, 0), (size * i, total - size * (i + 1) + 1))) for i in range(count)]
     )
     rows, right = [], []
     for k, values in zip((0.0, 1.0), _ends(problem), strict=True):

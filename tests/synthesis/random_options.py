@@ -237,11 +237,7 @@ def _machine(numbers: Numbers) -> Machine:
 
 #: constants of formulas and of machines, in units, and the order and continuity that they need
 IN_UNITS: Mapping[str, tuple[Callable[[Numbers], Functional], int, int]] = {
-    "peak": (
-        lambda n: peak(_mixed(n, ("u*c + u*b", "u*(1 + k)*c", "u*(c^2 + 3*b^2)", "u*abs(c) + u*abs(b)"))),
-        0,
-        0,
-    ),
+    "peak": (lambda n: peak(_mixed(n, ("u*c + u*b", "u*(1 + k)*c", "u*(c^2 + 3*b^2)", "u*abs(c) + u*abs(b)"))), 0, 0),
     "one side": (lambda n: peak(_mixed(n, ("max(u*c, u*b)", "u*c - u*b", "u*c^2 + u*c")), side="high"), 2, 0),
     "power": (lambda n: peak(_mixed(n, ("u*d", "u*d + u*c"))), 2, 1),
     "rms": (lambda n: rms(_mixed(n, ("u*c + u*b", "norm(u*c, u*b)", "u*(1 + k)*c"))), 0, 0),

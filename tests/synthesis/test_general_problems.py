@@ -8,16 +8,7 @@ from typing import Any
 
 import pytest
 
-from optlaws import (
-    Certificate,
-    Chebyshev,
-    InfeasibleProblem,
-    Problem,
-    SolverFailure,
-    at_most,
-    between,
-    synthesize,
-)
+from optlaws import Certificate, Chebyshev, InfeasibleProblem, Problem, SolverFailure, at_most, between, synthesize
 from optlaws.synthesis import PolynomialBasis
 from tests.sampling import sampled
 from tests.synthesis.judge import Judged, judge, lower_bounded

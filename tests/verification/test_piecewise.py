@@ -6,16 +6,7 @@ from fractions import Fraction
 
 import pytest
 
-from optlaws import (
-    BoundaryConditions,
-    BSplines,
-    Pieces,
-    Problem,
-    Window,
-    at_most,
-    synthesize,
-    via,
-)
+from optlaws import BoundaryConditions, BSplines, Pieces, Problem, Window, at_most, synthesize, via
 from optlaws.verification import exact_bound, verify
 from tests.verification.tampering import Data, data_of
 

@@ -314,10 +314,7 @@ def _tampered(data: Any) -> Iterator[Any]:
 
 @pytest.mark.parametrize(
     ("problem", "bound", "every"),
-    [
-        (*SOLUTIONS["solution"], 6),
-        *(pytest.param(*given, 1, marks=pytest.mark.long) for given in SOLUTIONS.values()),
-    ],
+    [(*SOLUTIONS["solution"], 6), *(pytest.param(*given, 1, marks=pytest.mark.long) for given in SOLUTIONS.values())],
 )
 def test_what_is_proven_of_a_tampered_file_both_prove(
     problem: Problem, bound: Bound, every: int, tmp_path: Path
@@ -434,9 +431,7 @@ def test_a_bound_above_its_certificate_and_below_the_objective_is_not_proven(sha
     assert answer.returncode == 1
     assert not verify(data).proven
     # a limit in the phase plane may prove more than this program knows
-    beside = data | {
-        "drive_limit": drive_limit("0.1*c", C=9.0).to_dict(),
-    }
+    beside = data | {"drive_limit": drive_limit("0.1*c", C=9.0).to_dict()}
     assert ended(beside, tmp_path).returncode == 3
 
 
@@ -522,8 +517,7 @@ def test_an_objective_in_small_units_is_no_other_within_them(tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize(
-    "window",
-    [Window("b", low=0.0, high=0.2, start=0.4, stop=0.6), Window("c", high=-1.0, start=0.1, stop=0.4)],
+    "window", [Window("b", low=0.0, high=0.2, start=0.4, stop=0.6), Window("c", high=-1.0, start=0.1, stop=0.4)]
 )
 def test_a_contradiction_that_rounding_alone_hides_is_not_called_false(window: Window, tmp_path: Path) -> None:
     with pytest.raises(InfeasibleProblem) as raised:

@@ -46,12 +46,7 @@ def energy_error(one: Loader) -> float:
 
 @pytest.mark.parametrize(
     ("name", "Y"),
-    [
-        ("K", 1.0),
-        ("Co", pi / 2 / (sqrt(2) + asinh(1))),
-        ("0050", 2 / pi),
-        ("0000", 2 / (2 * sqrt(2) - 1)),
-    ],
+    [("K", 1.0), ("Co", pi / 2 / (sqrt(2) + asinh(1))), ("0050", 2 / pi), ("0000", 2 / (2 * sqrt(2) - 1))],
 )
 def test_energy_parameters_in_closed_form(name: str, Y: float) -> None:
     assert pytest.approx(Y, abs=1e-12) == inertial_loader(coded(name)).Y

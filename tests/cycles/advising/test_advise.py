@@ -339,11 +339,7 @@ def test_what_cannot_be_compared_says_why() -> None:
         (Rise("35 mm", "0.1 s"), {"laws": "cycloidal"}, "laws must be names such as"),
         (Rise("35 mm", "0.1 s"), {"points": -1}, "points must be"),
         (Rise("35 mm", "0.1 s"), {"drive": {"inertia": "2 kg"}}, "inertia"),
-        (
-            Problem(order=3),
-            {},
-            r"advice is of a move .* or of a Cycle, .*: Rise\('1 m', '1 s', limits=...\)",
-        ),
+        (Problem(order=3), {}, r"advice is of a move .* or of a Cycle, .*: Rise\('1 m', '1 s', limits=...\)"),
     ],
 )
 def test_a_wrong_entry_is_refused(motion: object, entries: dict[str, object], complaint: str) -> None:

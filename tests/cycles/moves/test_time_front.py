@@ -131,10 +131,7 @@ def test_the_vibration_left_is_known_at_points_alone(name: str, unit: str, move:
     with pytest.raises(InputError, match="need not fall with the time"):
         left("0.29 s")
     quiet = fastest(
-        Problem(order=3),
-        stroke="100 mm",
-        limits=LIMITS | {name: f"{left.values[1]!r} {unit}"},
-        follower=elastic,
+        Problem(order=3), stroke="100 mm", limits=LIMITS | {name: f"{left.values[1]!r} {unit}"}, follower=elastic
     )
     assert quiet.duration <= left.durations[1] * (1.0 + 1e-6)
     assert not time_front(quiet, "jerk", points=2).falls

@@ -251,10 +251,7 @@ def test_limits_that_do_not_bind_change_nothing_and_those_that_do_are_of_a_space
     assert narrow.search_space == "splines of degree 3 in 120 pieces"
 
 
-@pytest.mark.parametrize(
-    ("order", "space"),
-    [(2, ALL), (3, "laws of order 3 with Z of degree 9")],
-)
+@pytest.mark.parametrize(("order", "space"), [(2, ALL), (3, "laws of order 3 with Z of degree 9")])
 def test_an_acceleration_that_must_end_with_0_has_no_least_rms(order: int, space: str) -> None:
     """What no law attains, laws of a space come near: the root of 12 of order 2."""
     segments = [Rise("1 m", "1 s"), Return("1 m", "1 s")]

@@ -71,13 +71,7 @@ def test_no_law_of_the_whole_cycle_is_better_than_the_decoupled_ones() -> None:
 
 @pytest.mark.parametrize(
     ("minimise", "power"),
-    [
-        ("velocity", 1.0),
-        ("acceleration", 0.5),
-        ("jerk", 1 / 3),
-        ("rms acceleration", 0.5),
-        ("rms jerk", 1 / 3),
-    ],
+    [("velocity", 1.0), ("acceleration", 0.5), ("jerk", 1 / 3), ("rms acceleration", 0.5), ("rms jerk", 1 / 3)],
 )
 @pytest.mark.parametrize("law", ["optimal", "cycloidal"])
 def test_free_durations_are_powers_of_the_strokes(minimise: str, power: float, law: str) -> None:

@@ -194,10 +194,7 @@ def test_disagreements_with_what_is_published() -> None:
         for one in entry.published
         for text in one.disagreements(entry.constants)
     }
-    assert found == {
-        "lazy modified trapezoid": "C = 4.88 is 5.27881",
-        "modified sine CV 33%": "C = 6.616 is 6.616604",
-    }
+    assert found == {"lazy modified trapezoid": "C = 4.88 is 5.27881", "modified sine CV 33%": "C = 6.616 is 6.616604"}
 
 
 def test_it_is_read_when_it_is_used() -> None:

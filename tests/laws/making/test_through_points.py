@@ -316,10 +316,7 @@ def rows(separator: str, write: str) -> str:
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        (
-            rows(";", "{:,.1f}"),
-            r"line 26: a point is two .*'1,012.8' has separators of thousands: write 1012.8",
-        ),
+        (rows(";", "{:,.1f}"), r"line 26: a point is two .*'1,012.8' has separators of thousands: write 1012.8"),
         (rows(",", "{:,.1f}"), r"line \d+: 3 numbers, got .* write numbers without separators of thousands"),
         (rows(" ", "{:,.1f}").replace(",", " "), r"line \d+: 3 numbers"),
         (rows(";", "{:,.1f}").replace(",", "'"), r"line 26: .*1'012.8\" has separators of thousands: write 1012.8"),

@@ -314,10 +314,7 @@ def test_jumps_of_rounding_size_are_none_in_uniform_motion() -> None:
 
 mpf = mpmath.mpf
 CASES: list[tuple[Segment, Any]] = [  # a segment on [0, 1] and its velocity
-    (
-        FractionalSegment(1.5, 1.0, 0.0, (4.0,), 2.0),
-        lambda t: 2 - mpf(4) / mpf(2.5) * (1 - t) ** mpf(2.5),
-    ),
+    (FractionalSegment(1.5, 1.0, 0.0, (4.0,), 2.0), lambda t: 2 - mpf(4) / mpf(2.5) * (1 - t) ** mpf(2.5)),
     (
         FractionalSegment(-0.5, 0.25, 2.25, (1.0, -0.5, 0.25), 0.75),
         lambda t: mpf(0.75) + ((2 * (q := mpf(0.25) + 2 * t) ** mpf(0.5)) - q ** mpf(1.5) / 3 + q ** mpf(2.5) / 10) / 2,

@@ -330,8 +330,7 @@ def check(seed: int) -> str:
 
 
 @pytest.mark.parametrize(
-    "seed",
-    [3, 4, 586, *(pytest.param(seed, marks=pytest.mark.long) for seed in (*range(3), *range(5, 20), 290, 950))],
+    "seed", [3, 4, 586, *(pytest.param(seed, marks=pytest.mark.long) for seed in (*range(3), *range(5, 20), 290, 950))]
 )
 def test_a_random_drive_takes_no_less_than_its_limit(seed: int) -> None:
     assert check(seed) in {"bound", "infeasible", "nothing known"}

@@ -106,10 +106,7 @@ def test_derivatives_are_those_of_taylor_arithmetic(name: str) -> None:
         0.1, 0.4, offset=0.05, bodies={"rod": Body(2.0, centre=(0.1, 0.02), inertia=0.01)}, loads=Loads(gravity="1 rad")
     )
     x = np.linspace(*mechanism.over, 13)
-    for formula, values in (
-        (mechanism.inertia_formula, mechanism.inertia),
-        (mechanism.load_formula, mechanism.load),
-    ):
+    for formula, values in ((mechanism.inertia_formula, mechanism.inertia), (mechanism.load_formula, mechanism.load)):
         jet = by_taylor(formula, x, 3)
         for nu in range(4):
             exact = jet.derivative(nu)

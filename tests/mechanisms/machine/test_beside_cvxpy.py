@@ -32,8 +32,7 @@ def amplitudes(machine: Machine, output: str, laws: list[MotionLaw]) -> Complex:
     driven = np.linalg.inv(right)[i] @ (B[:, 0] / root + B[:, 1] + root * B[:, 2])
     share = 2.0 * (row @ right[:, i]) * driven
     nu, angle = np.meshgrid(
-        abs(root) * np.linspace(1.0 - SPREAD, 1.0 + SPREAD, 21),
-        np.linspace(asin(DAMPINGS[0]), asin(DAMPINGS[1]), 5),
+        abs(root) * np.linspace(1.0 - SPREAD, 1.0 + SPREAD, 21), np.linspace(asin(DAMPINGS[0]), asin(DAMPINGS[1]), 5)
     )
     roots = (1j * nu * np.exp(1j * angle)).ravel()
     velocities = np.array([MEASURE * law.b(PLACES) for law in laws]).T

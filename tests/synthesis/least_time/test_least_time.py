@@ -9,14 +9,7 @@ import ruckig
 from scipy.optimize import linprog
 
 from optlaws import B, C_minus, C_plus, Chebyshev, InfeasibleProblem, InputError, J, Pieces, Problem, Window, catalogue
-from tests.internals.synthesis import (
-    FollowerResidual,
-    LeastTime,
-    MoveLimits,
-    TimedMove,
-    least_time,
-    segment_times,
-)
+from tests.internals.synthesis import FollowerResidual, LeastTime, MoveLimits, TimedMove, least_time, segment_times
 from tests.synthesis.least_time.otg import fastest_motion
 
 LIMITS = MoveLimits(velocity=5.0, acceleration=10.0, deceleration=10.0, jerk=30.0)

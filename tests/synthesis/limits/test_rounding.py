@@ -70,13 +70,7 @@ def _jerk_of_free_ends(b: mpmath.mpf, *, monotone: bool) -> mpmath.mpf:
     return 8 * b / (1 - 2 * _root(lambda r: 2 * b * r**3 - 6 * (b - 1) * r**2 + 2 * b - 3, 0, 0.70711) ** 2)
 
 
-EXACT = {
-    ("C", 3): _acceleration,
-    ("D", 3): _power,
-    ("RMS", 3): _rms,
-    ("J", 2): _jerk_of_free_ends,
-    ("J", 3): _jerk,
-}
+EXACT = {("C", 3): _acceleration, ("D", 3): _power, ("RMS", 3): _rms, ("J", 2): _jerk_of_free_ends, ("J", 3): _jerk}
 
 
 @pytest.mark.sample(4)

@@ -5,14 +5,7 @@ from dataclasses import replace
 import pytest
 
 from optlaws import BoundaryConditions, Chebyshev, Problem, at_most, synthesize
-from tests.internals.synthesis import (
-    Answer,
-    first_points,
-    model_of,
-    optimum_on_points,
-    sharpened,
-    vertex_on_points,
-)
+from tests.internals.synthesis import Answer, first_points, model_of, optimum_on_points, sharpened, vertex_on_points
 from tests.internals.verification import prove
 from tests.synthesis.judge import judge
 

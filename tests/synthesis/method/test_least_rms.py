@@ -34,10 +34,7 @@ ALONE = [
         2.0853,
     ),
     (Problem(boundary=ENDS, symmetric=False, B=2.2108531, minimise="B", basis=Powers(9)), 2.2108531),
-    (
-        Problem(boundary=ENDS, symmetric=False, B=at_least(2.2), J=at_most(900), minimise="B", basis=Powers(9)),
-        2.2,
-    ),
+    (Problem(boundary=ENDS, symmetric=False, B=at_least(2.2), J=at_most(900), minimise="B", basis=Powers(9)), 2.2),
 ]
 
 

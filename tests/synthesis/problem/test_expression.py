@@ -163,8 +163,7 @@ def test_an_error_shows_the_text_and_points_at_the_character(text: str, message:
 
 
 @pytest.mark.parametrize(
-    ("text", "name"),
-    [("snapp", "snap"), ("rmsj", "rms_j"), ("C_pluss", "C_plus"), ("C_minu", "C_minus")],
+    ("text", "name"), [("snapp", "snap"), ("rmsj", "rms_j"), ("C_pluss", "C_plus"), ("C_minu", "C_minus")]
 )
 def test_an_unknown_constant_names_the_nearest(text: str, name: str) -> None:
     with pytest.raises(InputError, match=f"did you mean '{name}'"):

@@ -329,10 +329,7 @@ def test_where_no_law_is_found_the_error_says_what_may_have_no_value() -> None:
 
 def test_the_error_says_nothing_of_values_that_no_motion_brings() -> None:
     crank = integral("c/sqrt(1 - (0.25*sin(pi*a))^2) + 1/(c - 7) + 1/(2 + b^2) + log(b)")
-    assert crank.remarks == (
-        "1/(c - 7) has no value where c - 7 = 0",
-        "log(b) has no slope or no value where b <= 0",
-    )
+    assert crank.remarks == ("1/(c - 7) has no value where c - 7 = 0", "log(b) has no slope or no value where b <= 0")
 
 
 def test_symmetric_laws_of_uneven_formulas_survive_text() -> None:

@@ -443,10 +443,7 @@ def inner(problem: Problem) -> np.ndarray:
 
 @examples(60)
 @given(
-    problem=st.sampled_from(PLAIN),
-    seed=st.integers(0, 2**32 - 1),
-    symmetric=st.booleans(),
-    size=st.floats(1e-3, 30.0),
+    problem=st.sampled_from(PLAIN), seed=st.integers(0, 2**32 - 1), symmetric=st.booleans(), size=st.floats(1e-3, 30.0)
 )
 def test_no_feasible_law_beats_the_bound(problem: Problem, seed: int, symmetric: bool, size: float) -> None:  # noqa: FBT001
     solution = solution_of(problem)

@@ -24,15 +24,7 @@ from optlaws import (
     at_least,
     at_most,
 )
-from tests.internals.synthesis import (
-    RELAXED,
-    VIOLATION,
-    Sublevel,
-    _model,
-    expression,
-    means_by,
-    spread,
-)
+from tests.internals.synthesis import RELAXED, VIOLATION, Sublevel, _model, expression, means_by, spread
 
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 #: roots of P3 and of P3'
@@ -264,10 +256,7 @@ def test_a_contradiction_is_worth_what_the_base_law_breaks(x: float) -> None:
         ("C_plus", {"C_plus": -2.0}),
         ("C_minus", {"C_minus": 2.0}),
         ("C + J", {"C": 0.0, "J": 0.0}),
-        (
-            "max(3.0*C_plus, 0.5*C_minus)",
-            {"C_plus": -2.0, "C_minus": 2.0, "max(3.0*C_plus, 0.5*C_minus)": 1.0},
-        ),
+        ("max(3.0*C_plus, 0.5*C_minus)", {"C_plus": -2.0, "C_minus": 2.0, "max(3.0*C_plus, 0.5*C_minus)": 1.0}),
         ("max(3.0*C_plus, 0.5*C_plus)", {"C_plus": -2.0, "max(3.0*C_plus, 0.5*C_plus)": -1.0}),
     ],
 )

@@ -40,19 +40,8 @@ from tests.internals.laws import (
     Segment,
     SineSegment,
 )
-from tests.internals.synthesis import (
-    rounded_down,
-    rounded_up,
-)
-from tests.internals.verification import (
-    ExactLaw,
-    between,
-    enclosed,
-    lower,
-    near,
-    real_roots,
-    upper,
-)
+from tests.internals.synthesis import rounded_down, rounded_up
+from tests.internals.verification import ExactLaw, between, enclosed, lower, near, real_roots, upper
 
 
 def peaks(law: PolynomialLaw) -> dict[str, float]:
