@@ -338,8 +338,10 @@ def test_a_new_kind_makes_laws_that_are_stored(exponential: Any) -> None:
 def test_a_new_kind_is_transformed(exponential: Any) -> None:
     law = PiecewiseLaw([0, 1], [exponential(np.log(2.0))])
     k = np.linspace(0.0, 1.0, 101)
-    assert with_end_velocity(law, 0.25).a(k) == pytest.approx(0.75 * law.a(k) + 0.25 * k, abs=1e-14)
-    assert mirrored_law(law).a(k) == pytest.approx(law.a(1.0 - k), abs=1e-14)
+    drifting, mirrored = with_end_velocity(law, 0.25), mirrored_law(law)
+    assert drifting.a(k) == pytest.approx(0.75 * law.a(k) + 0.25 * k, abs=1e-14)
+    assert mirrored.a(k) == pytest.approx(law.a(1.0 - k), abs=1e-14)
+    assert {segment.kind for one in (drifting, mirrored) for segment in one.segments} == {"polynomial"}  # type: ignore[attr-defined] # laws of pieces
     assert reversed_law(law).c(k) == pytest.approx(-law.c(1.0 - k), abs=1e-13)
     symmetric = rise(exponential)
     assert symmetric.a(1.0) == pytest.approx(1.0, abs=1e-14)

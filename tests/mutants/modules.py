@@ -37,7 +37,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "optlaws.laws.segments.fractional": ("tests/laws/segments", *SEGMENTS),
     "optlaws.laws.segments.constant_power": ("tests/laws/segments/test_piecewise.py", *SEGMENTS),
     "optlaws.laws.making.multiplier": ("tests/laws/making/test_multiplier.py",),
-    "optlaws.laws.making.transform": ("tests/laws/making/test_transform.py",),
+    "optlaws.laws.making.transform": ("tests/laws/making/test_transform.py", "tests/contracts/test_segments.py"),
     "optlaws.laws.making.trapezoids": ("tests/laws/making/test_trapezoids.py", "tests/laws/catalogue", *LAWS),
     "optlaws.laws.savin": ("tests/laws/test_savin.py",),
     "optlaws.laws.catalogue.entry": ("tests/laws/catalogue",),

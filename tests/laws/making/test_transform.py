@@ -1,6 +1,5 @@
 """Laws made of laws: with an end velocity (1.17), reversed, mirrored, shaped, and given as formulas."""
 
-from dataclasses import dataclass
 from typing import Any
 
 import mpmath  # type: ignore[import-untyped]
@@ -26,7 +25,7 @@ from optlaws import (
     trapezoid,
     with_end_velocity,
 )
-from tests.internals.laws import PolynomialSegment, PowerSegment, Segment, Shaper, as_polynomial, law_between, section
+from tests.internals.laws import PolynomialSegment, PowerSegment, Shaper, as_polynomial, law_between, section
 from tests.laws.examples import EXAMPLES, cut
 
 Array = NDArray[np.float64]
@@ -108,37 +107,6 @@ def test_constant_power_stays_what_it_is_where_it_can() -> None:
     faster = with_end_velocity(law, 0.2)
     assert faster.b([0.0, 0.5, 1.0]) == pytest.approx([0.2, 1.4, 0.2], abs=1e-15)
     assert faster.constants.C.value == faster.constants.D.value == np.inf  # c is infinite where b is not 0
-
-
-@dataclass(frozen=True)
-class Exponential(Segment, kind="test exponential"):
-    rate: float
-
-    def __post_init__(self) -> None:
-        self._check()
-
-    def derivative(self, u: Array, length: float, nu: int) -> Array:
-        return np.asarray(self.rate**nu * np.exp(self.rate * u * length) - (nu == 0))
-
-    def candidates(self, length: float, nu: int) -> Array:  # noqa: ARG002
-        return np.empty(0)
-
-    def power_candidates(self, length: float) -> Array:  # noqa: ARG002
-        return np.empty(0)
-
-    def square(self, length: float, nu: int) -> float:  # noqa: ARG002 - its derivatives are all alike
-        return self.rate**3 * float(np.expm1(2 * self.rate * length)) / 2
-
-
-def test_a_segment_of_another_kind_becomes_a_polynomial() -> None:
-    law = PiecewiseLaw([0, 0.5, 1], [Exponential(1.0), PolynomialSegment((), float(np.exp(0.5)))])
-    for changed, exact in (
-        (with_end_velocity(law, 0.25), 0.75 * law.a(K) + 0.25 * K),
-        (mirrored_law(law), law.a(1.0 - K)),
-    ):
-        assert isinstance(changed, PiecewiseLaw)
-        assert {segment.kind for segment in changed.segments} == {"polynomial"}
-        assert changed.a(K) == pytest.approx(exact, abs=1e-14)
 
 
 def test_other_smooth_laws_become_polynomials() -> None:
