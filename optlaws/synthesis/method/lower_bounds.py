@@ -23,11 +23,9 @@ from optlaws.errors import InputError
 from optlaws.numbers import Array
 from optlaws.numerics.roots import bisect
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Program
+from optlaws.synthesis.families.family import ConstraintFamily, NormFamily, Program
 from optlaws.synthesis.families.names import at_least
 from optlaws.synthesis.method.contacts import polished
-from optlaws.synthesis.method.discretised.grids import first_points
-from optlaws.synthesis.method.discretised.linear import vertex_on_points
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.norm_lower_bounds import along_directions
 from optlaws.synthesis.problem.constants import B, Functional, RootMeanSquare
@@ -160,9 +158,6 @@ def _at_fixed_places(
         for s in family.signs:
             row = _row(family, u, s, low)
             at_u = _with(replace(program, families=tuple(loose)), row)
-            # where no law has the peak IPOPT would look long for one
-            if not _straight_rows_agree(at_u):
-                continue
             state = solve(at_u, start=plain.x if at_u.curved else None).optimum
             way = None if state is None else _let_go(program, family, state, low)
             if way is not None:
@@ -171,13 +166,6 @@ def _at_fixed_places(
                 stuck.append((at_u.objective_at(state.x), row))
     # a curved program without a path: every law with the peak may be on the boundary of the other constraints
     return ways if program.curved and ways else ways + _stayed(program, ways, stuck)
-
-
-def _straight_rows_agree(program: Program) -> bool:
-    """Whether some law keeps the program's linear rows on its first points."""
-    linear = tuple(family for family in program.families if isinstance(family, LinearFamily))
-    straight = replace(program, families=linear, objective=np.zeros(program.size)) if program.curved else program
-    return vertex_on_points(straight, first_points(straight)) is not None
 
 
 def _shows_contacts(program: Program, state: ActiveSet) -> bool:

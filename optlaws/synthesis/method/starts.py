@@ -14,36 +14,19 @@ from optlaws.synthesis.limits.drive_limits import DriveLimit
 from optlaws.synthesis.method.exchange import Method, solve
 from optlaws.synthesis.problem.constants import PowerConstant
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 
-_SEED = 20010
-_RANDOM = 2
-_SPREAD = 0.3
 _AMPLE = 1.2
 
 
 def points(model: Model, method: Method = "auto") -> Iterator[Array]:
-    """Coordinates of the laws of least RMS of c, of least C, and some around them; D follows from the law."""
+    """Coordinates of the laws of least RMS of c and of least C; D follows from the law."""
     problem = model.problem
-    convex: list[Array] = []
     bounds = {name: limits for name, limits in problem.bounds.items() if name.convex}
     for constant in ("rms_c", "C"):
         smooth = model_of(replace(problem, minimise=constant, D=None, bounds=bounds))
         optimum = solve(smooth.program, method=method).optimum
         if optimum is not None:
-            convex.append(model.coordinates(optimum.x))
-            yield _completed(model, convex[-1])
-    if not problem.symmetric and problem.boundary is None and problem.inflexion is None:
-        for lifted in _from_symmetric(model, method):
-            convex.append(lifted)
-            yield _completed(model, lifted)
-    if not convex:
-        return
-    generator = np.random.default_rng(_SEED)
-    size = max(float(np.abs(convex[-1]).max()), 1.0)
-    for i in range(_RANDOM):
-        away = _SPREAD * size * generator.normal(size=model.space.terms)
-        yield _completed(model, convex[i % len(convex)] + away)
+            yield _completed(model, model.coordinates(optimum.x))
 
 
 def in_phase_plane(model: Model, limit: DriveLimit) -> Array:
@@ -63,19 +46,6 @@ def in_phase_plane(model: Model, limit: DriveLimit) -> Array:
     free = null_space(fixed) if len(fixed) else np.eye(space.terms)
     moved = np.linalg.lstsq(rows[:, :-1] @ free, right - rows[:, :-1] @ least, rcond=None)[0]
     return _completed(model, least + free @ moved)
-
-
-def _from_symmetric(model: Model, method: Method) -> list[Array]:
-    """Coordinates of the best symmetric law that the default start leads to: it belongs to the problem too."""
-    if not isinstance(model.space, PolynomialSpace):
-        return []
-    half = model_of(replace(model.problem, symmetric=True))
-    optimum = solve(half.program, method=method).optimum
-    if optimum is None or not isinstance(half.space, PolynomialSpace):
-        return []
-    lifted = np.zeros(model.space.terms)
-    lifted[np.isin(model.space.index, half.space.index)] = half.coordinates(optimum.x)
-    return [lifted]
 
 
 def _completed(model: Model, coordinates: Array) -> Array:
