@@ -35,6 +35,7 @@ from optlaws.sentences import Amount, joined, sentence
 from optlaws.tolerances import AGREEMENT, CLOSURE, SAME_TIME
 
 if TYPE_CHECKING:
+    from optlaws.mechanisms.drives.effort import Margin
     from optlaws.shown.summary import Row
 
 #: a `Cycle`, and its `Plan`, which know this module
@@ -203,11 +204,15 @@ def limits_taken(plan: Plan, limited: Cycle | None = None) -> tuple[LimitTaken, 
 def broken_limits(plan: Plan) -> Sequence[str]:
     """What its laws take beyond its limits, and beyond those of its motor."""
     broken = [sentence("{}", taken) for taken in plan.limits_taken if not taken.is_kept]
-    if hasattr(plan.specification.drive, "motor") and not plan.specification.limits.get(MOTOR):
-        weak = (margin for margin in plan.sheet.margins if not margin.is_kept)
-        uses = ((each.name, f"{100.0 * each.use:.4g}".replace("inf", "∞")) for each in weak)
-        broken += [sentence("the motor's {}, {} % of it", *use) for use in uses]
-    return broken
+    uses = ((each.name, f"{100.0 * each.use:.4g}".replace("inf", "∞")) for each in overloads(plan))
+    return [*broken, *(sentence("the motor's {}, {} % of it", *use) for use in uses)]
+
+
+def overloads(plan: Plan) -> list[Margin]:
+    """The limits of its motor that it goes beyond; none where its laws are to keep them."""
+    if not hasattr(plan.specification.drive, "motor") or plan.specification.limits.get(MOTOR):
+        return []
+    return [margin for margin in plan.sheet.margins if not margin.is_kept]
 
 
 def refuse_beyond(cycle: Cycle) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from optlaws.cycles.answers import Answers
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
-from optlaws.cycles.placed import Place, limit_rows
+from optlaws.cycles.placed import Place, limit_rows, overloads
 from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, LimitTaken
 from optlaws.cycles.specification.load import is_process, read_load
 from optlaws.cycles.usual_law import usual_cycle
@@ -420,7 +420,7 @@ def drive_rows(plan: Solved) -> list[Row]:
     """The effort of the drive and the peaks of its load; nothing where there is no drive."""
     rows = []
     if isinstance(plan.drive, Drive):
-        rows = list(plan.sheet.summary())
+        rows = [*overload_rows(plan), *plan.sheet.summary()]
     elif plan.drive is not None:
         effort, force, name = plan.effort, FORCE_UNITS[plan.axis], FORCES[plan.axis]
         rows = [
@@ -440,6 +440,22 @@ def drive_rows(plan: Solved) -> list[Row]:
     rows += load_work_rows(plan)
     loaded = load_peaks(plan).items()
     return rows + [Row(f"peak of the load's {name}", peak, load_unit(plan, name)) for name, peak in loaded]
+
+
+def overload_rows(plan: Solved) -> list[Row]:
+    """The remark that a motion overloads its motor, whose limits it was not to keep; nothing where it does not.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Dwell, Mechanism, Motor, Rise
+    >>> drive = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2", rated_torque="1 N m"), ratio=20)
+    >>> table = Cycle([Rise("45 deg", "0.25 s"), Dwell()], period="0.6 s", advance="45 deg", drive=drive)
+    >>> overload_rows(table.solve())[0].value
+    'the motor is overloaded (RMS torque 143 %): give the limit motor = true, a stronger motor, another ratio or ...'
+    """
+    uses = ", ".join(f"{each.name} {100.0 * each.use:.3g} %" for each in overloads(plan))
+    remedy = "give the limit motor = true, a stronger motor, another ratio or more time"
+    return [Row("remark", f"the motor is overloaded ({uses}): {remedy}")] if uses else []
 
 
 def load_work_rows(plan: Solved) -> list[Row]:
