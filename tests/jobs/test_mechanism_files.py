@@ -254,6 +254,7 @@ WRONG: dict[str, tuple[dict[str, Any], dict[str, Any] | None, str]] = {
         None,
         "mechanism: unknown entry of a slider crank 'ofset'; did you mean 'offset'",
     ),
+    "length": ({"kind": "toggle", "rod": "0.3 m"}, None, "give it in the table lengths = { rod = ... }"),
     "missing": ({"kind": "belt", "radius": "3 cm"}, None, "mechanism: a belt needs its mass, such as mass = '8 kg'"),
     "body": (
         {**CRANK, "bodies": {"slidr": "5 kg"}},

@@ -380,6 +380,13 @@ class Toggle(LinkageKind, kind="toggle"):
         default="open",
     )
 
+    @classmethod
+    def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
+        for name in LENGTHS:
+            if name in data:
+                raise InputError(f"{name} is a length of the toggle: give it in the table lengths = {{ {name} = ... }}")
+        return data
+
     def _check(self) -> None:
         missing = [name for name in LENGTHS if name not in self.lengths]
         if missing:

@@ -51,6 +51,7 @@ kind = "dwell"
 HEAD = 'job = "cam"\ntitle = "Small"\nspeed = "200 rpm"\nrows = 13\n'
 ROLLER = '[follower]\nkind = "translating roller"\nradius = "12 mm"\n'
 LAWS = HEAD + 'prime_radius = "50 mm"\npressure_angle = "25 deg"\nbest = "laws"\n' + ROLLER + MOTION
+GIVEN = LAWS.replace('by = "35 mm"', 'by = "35 mm"\nlaw = "345"').replace('"return"', '"return"\nlaw = "345"')
 BASE = HEAD + 'radius_of_curvature = "3 mm"\nbest = "prime circle"\n[follower]\nkind = "translating flat"\n' + MOTION
 OFFSET = (
     HEAD + 'prime_radius = "60 mm"\nbest = "offset"\n[process]\nover = "master"\n'
@@ -228,6 +229,7 @@ def test_a_barrel_has_its_flanks_tabled(tmp_path: Path) -> None:
         ),
         (PAIR, 'prime_radius = "60 mm"\n', "", "prime_radius is missing.*the least one that keeps them is taken"),
         (LAWS, '"laws"', '"law"', "best"),
+        (GIVEN, "", "", "best = 'laws' looks for laws, and each motion has a given one"),
         (BASE, "speed", 'prime_radius = "9 mm"\nspeed', "best = 'prime circle' computes prime_radius"),
         (OFFSET, 'prime_radius = "60 mm"\n', "", "prime_radius is missing"),
         (OFFSET, '"12 mm"', '"12 mm"\noffset = "1 mm"', "best = 'offset' computes the offset"),
