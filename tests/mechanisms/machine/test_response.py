@@ -272,74 +272,8 @@ def test_values_are_those_of_their_contents() -> None:
     assert machine != follower(20.0, 0.06)
 
 
-WRONG: dict[str, Callable[[], object]] = {
-    "A must have as many columns": lambda: Machine([[0, 1]], [[1]], [[1]]),
-    "B must have a row for each of 2 states": lambda: Machine([[0, 1], [-1, 0]], [[1]], [[1, 0]]),
-    "C must have a row for each output": lambda: Machine([[-1.0]], [[1]], [[1, 0]]),
-    "D must have a row for each of 1 outputs": lambda: Machine([[-1.0]], [[1]], [[1]], [[1, 2]]),
-    "A must be a matrix of finite numbers": lambda: Machine([[np.nan]], [[1]], [[1]]),
-    "B must be a matrix, a list of rows": lambda: Machine([[-1.0]], np.array([1.0]), [[1]]),
-    "unstable: its root 1": lambda: Machine([[1.0]], [[1]], [[1]]),
-    "as good as rigid": lambda: Machine([[0, 1e6], [-1e6, 0]], [[0], [1]], [[1, 0]]),
-    "inputs must name": lambda: Machine([[-1.0]], [[1]], [[1]], inputs="d"),
-    "outputs must be 1 different names": lambda: Machine([[-1.0]], [[1]], [[1]], outputs=["x", "y"]),
-    "without quotes": lambda: Machine([[-1.0]], [[1]], [[1]], outputs=["the 'best'"]),
-    "did you mean 'position'": lambda: follower(20, 0.1).response(smoothstep(4))["positon"],
-    "law must be a motion law": lambda: follower(20, 0.1).response("smooth"),  # type: ignore[arg-type]
-    "dwell must be": lambda: follower(20, 0.1).response(smoothstep(4), dwell=-1.0),
-    "has no dwell": lambda: follower(20, 0.1).response(smoothstep(4)).dwell_peak("position"),
-    "of which the motion is known": lambda: follower(20, 0.1).response(smoothstep(4))["position"](1.5),
-    "in resonance": lambda: follower(np.pi, 0.0).cycle(smoothstep(4), dwell=0.0, rest=0.0),
-    "fall must lead back": lambda: follower(9.0, 0.1).cycle(smoothstep(4), moved_twice(), dwell=0.0, rest=0.0),
-    "unknown mass 'q'": lambda: Machine.from_masses({"m": 1, "n": 2}, [("m", "q", 3)], drive="m"),
-    "at least two": lambda: Machine.from_masses({"m": 1}, [], drive="m"),
-    "joins two different": lambda: Link("m", "m", 3.0),
-    "the mass 'q' is linked to nothing": lambda: Machine.from_masses(
-        {"m": 1, "n": 1, "q": 1, "r": 2}, [("m", "n", 3), ("q", "r", 3), ("ground", "q", 3)], drive="m"
-    ),
-    "stiffness must be": lambda: Link("m", "n", -3.0),
-    "the mass n must be": lambda: Machine.from_masses({"m": 1, "n": 0}, [("m", "n", 3)], drive="m"),
-    "drive must": lambda: Machine.from_masses({"m": 1, "n": 1}, [("m", "n", 3)], drive=("m", "m")),
-    "unknown output of these masses": lambda: Machine.from_masses(
-        {"m": 1, "n": 1}, [("m", "n", 3)], drive="m", outputs=["torque"]
-    ),
-    "a system must be": lambda: Machine.from_system(3),
-    "must be a Follower": lambda: Machine.from_follower(3),  # type: ignore[arg-type]
-    "modes must be a list": lambda: Machine.from_modes(8.5, duration=1.0),  # type: ignore[arg-type]
-    "mode 1 must be a frequency in Hz": lambda: Machine.from_modes([8.5, 0.02], duration=1.0),  # type: ignore[list-item]
-    "frequency of mode 2 must be": lambda: Machine.from_modes([(8.5, 0.02), (0.0, 0.02)], duration=1.0),
-    "such as 0.02 for 2 %": lambda: Machine.from_modes([(8.5, 2.0)], duration=1.0),
-    "output of these modes": lambda: Machine.from_modes([(8.5, 0.0)], duration=1.0, outputs=["force"]),
-    "count must be": lambda: follower(9.0, 0.1).response(smoothstep(4)).to_pandas(1),
-    "factor must be": lambda: follower(9.0, 0.1).at_speed(0.0),
-    "needs its A, such as A = ": lambda: Machine.from_dict({}),
-    "unknown entry of a machine": lambda: Machine.from_dict({"A": [[-1]], "E": 1}),
-}
-
-
 def moved_twice() -> MotionLaw:
     return PiecewiseLaw([0, 1], [PolynomialSegment((0.0,), 2.0)])
-
-
-@pytest.mark.parametrize("says", WRONG)
-def test_wrong_inputs_are_named(says: str) -> None:
-    with pytest.raises(InputError, match=says):
-        WRONG[says]()
-
-
-def test_discrete_systems_and_mere_gains_are_refused() -> None:
-    with pytest.raises(InputError, match="continuous in time"):
-        Machine.from_system(signal.StateSpace([[0.5]], [[1.0]], [[1.0]], [[0.0]], dt=0.1))
-    gain = SimpleNamespace(A=np.empty((0, 0)), B=np.empty((0, 1)), C=np.empty((1, 0)), D=[[2.0]])
-    with pytest.raises(InputError, match="a mere gain is no machine"):
-        Machine.from_system(gain)
-
-
-def test_no_state_of_rest_is_said() -> None:
-    drifting = Machine([[0.0]], [[1.0]], [[1.0]])
-    away = PiecewiseLaw([0, 1], [PolynomialSegment((0.0,), 1.0)], a0=0.5)
-    with pytest.raises(InputError, match="no state of rest"):
-        drifting.response(away).peak("output 1")
 
 
 # --- flat outputs ---
@@ -374,25 +308,6 @@ def test_one_mass_is_a_polydyne_cam() -> None:
     k = np.linspace(0.0, 1.0, 21)
     law = savin("III", 7.2)
     assert driving_law(machine, law)(k) == pytest.approx(polydyne(law, nu, damping)(k), abs=1e-13)
-
-
-@pytest.mark.parametrize(
-    ("says", "machine", "output"),
-    [
-        ("has zeros .-", chain(1, damping=2.0), None),
-        ("enters it directly", chain(1), "drive force"),
-        ("does not move it", Machine([[0, 1], [-9, 0]], [[0], [0]], [[1, 0]]), None),
-        ("unknown output", chain(1), "torque"),
-    ],
-)
-def test_outputs_that_are_not_flat_say_why(says: str, machine: Machine, output: str | None) -> None:
-    with pytest.raises(InputError, match=says):
-        flat_output(machine, output)
-
-
-def test_laws_that_are_not_smooth_enough_are_refused() -> None:
-    with pytest.raises(InputError, match="of order 4 at least"):
-        driving_law(chain(1), smoothstep(3))
 
 
 # --- spectra over a parameter ---
@@ -438,12 +353,76 @@ def test_a_spectrum_is_drawn_and_tabled() -> None:
     assert table["frequency of mode 1"].tolist() == pytest.approx(np.sqrt(spectrum.values / 3.0).tolist())
 
 
-def test_what_is_no_machine_is_refused() -> None:
-    with pytest.raises(InputError, match="values must be at least one"):
-        machine_spectrum(belt, [], savin("III", 0))
-    with pytest.raises(InputError, match="did you mean 'force motor-load'"):
-        machine_spectrum(belt, [1.0], savin("III", 0), output="force motor load")
-    with pytest.raises(InputError, match="make must give a Machine"):
-        machine_spectrum(lambda _: 3, [1.0], savin("III", 0))  # type: ignore[arg-type,return-value]
-    with pytest.raises(InputError, match="same outputs"):
-        machine_spectrum(lambda s: Machine([[-s]], [[s]], [[1.0]], outputs=[f"at {s:g}"]), [1.0, 2.0], savin("III", 0))
+# --- what is refused ---
+
+WRONG: dict[str, Callable[[], object]] = {
+    "A must have as many columns": lambda: Machine([[0, 1]], [[1]], [[1]]),
+    "B must have a row for each of 2 states": lambda: Machine([[0, 1], [-1, 0]], [[1]], [[1, 0]]),
+    "C must have a row for each output": lambda: Machine([[-1.0]], [[1]], [[1, 0]]),
+    "D must have a row for each of 1 outputs": lambda: Machine([[-1.0]], [[1]], [[1]], [[1, 2]]),
+    "A must be a matrix of finite numbers": lambda: Machine([[np.nan]], [[1]], [[1]]),
+    "B must be a matrix, a list of rows": lambda: Machine([[-1.0]], np.array([1.0]), [[1]]),
+    "unstable: its root 1": lambda: Machine([[1.0]], [[1]], [[1]]),
+    "as good as rigid": lambda: Machine([[0, 1e6], [-1e6, 0]], [[0], [1]], [[1, 0]]),
+    "inputs must name": lambda: Machine([[-1.0]], [[1]], [[1]], inputs="d"),
+    "outputs must be 1 different names": lambda: Machine([[-1.0]], [[1]], [[1]], outputs=["x", "y"]),
+    "without quotes": lambda: Machine([[-1.0]], [[1]], [[1]], outputs=["the 'best'"]),
+    "did you mean 'position'": lambda: follower(20, 0.1).response(smoothstep(4))["positon"],
+    "law must be a motion law": lambda: follower(20, 0.1).response("smooth"),  # type: ignore[arg-type]
+    "dwell must be": lambda: follower(20, 0.1).response(smoothstep(4), dwell=-1.0),
+    "has no dwell": lambda: follower(20, 0.1).response(smoothstep(4)).dwell_peak("position"),
+    "of which the motion is known": lambda: follower(20, 0.1).response(smoothstep(4))["position"](1.5),
+    "in resonance": lambda: follower(np.pi, 0.0).cycle(smoothstep(4), dwell=0.0, rest=0.0),
+    "fall must lead back": lambda: follower(9.0, 0.1).cycle(smoothstep(4), moved_twice(), dwell=0.0, rest=0.0),
+    "unknown mass 'q'": lambda: Machine.from_masses({"m": 1, "n": 2}, [("m", "q", 3)], drive="m"),
+    "at least two": lambda: Machine.from_masses({"m": 1}, [], drive="m"),
+    "joins two different": lambda: Link("m", "m", 3.0),
+    "the mass 'q' is linked to nothing": lambda: Machine.from_masses(
+        {"m": 1, "n": 1, "q": 1, "r": 2}, [("m", "n", 3), ("q", "r", 3), ("ground", "q", 3)], drive="m"
+    ),
+    "stiffness must be": lambda: Link("m", "n", -3.0),
+    "the mass n must be": lambda: Machine.from_masses({"m": 1, "n": 0}, [("m", "n", 3)], drive="m"),
+    "drive must": lambda: Machine.from_masses({"m": 1, "n": 1}, [("m", "n", 3)], drive=("m", "m")),
+    "unknown output of these masses": lambda: Machine.from_masses(
+        {"m": 1, "n": 1}, [("m", "n", 3)], drive="m", outputs=["torque"]
+    ),
+    "a system must be": lambda: Machine.from_system(3),
+    "must be a Follower": lambda: Machine.from_follower(3),  # type: ignore[arg-type]
+    "modes must be a list": lambda: Machine.from_modes(8.5, duration=1.0),  # type: ignore[arg-type]
+    "mode 1 must be a frequency in Hz": lambda: Machine.from_modes([8.5, 0.02], duration=1.0),  # type: ignore[list-item]
+    "frequency of mode 2 must be": lambda: Machine.from_modes([(8.5, 0.02), (0.0, 0.02)], duration=1.0),
+    "such as 0.02 for 2 %": lambda: Machine.from_modes([(8.5, 2.0)], duration=1.0),
+    "output of these modes": lambda: Machine.from_modes([(8.5, 0.0)], duration=1.0, outputs=["force"]),
+    "count must be": lambda: follower(9.0, 0.1).response(smoothstep(4)).to_pandas(1),
+    "factor must be": lambda: follower(9.0, 0.1).at_speed(0.0),
+    "needs its A, such as A = ": lambda: Machine.from_dict({}),
+    "unknown entry of a machine": lambda: Machine.from_dict({"A": [[-1]], "E": 1}),
+    "continuous in time": lambda: Machine.from_system(signal.StateSpace([[0.5]], [[1.0]], [[1.0]], [[0.0]], dt=0.1)),
+    "a mere gain is no machine": lambda: Machine.from_system(
+        SimpleNamespace(A=np.empty((0, 0)), B=np.empty((0, 1)), C=np.empty((1, 0)), D=[[2.0]])
+    ),
+    "no state of rest": lambda: (
+        Machine([[0.0]], [[1.0]], [[1.0]])
+        .response(PiecewiseLaw([0, 1], [PolynomialSegment((0.0,), 1.0)], a0=0.5))
+        .peak("output 1")
+    ),
+    "has zeros .-": lambda: flat_output(chain(1, damping=2.0), None),
+    "enters it directly": lambda: flat_output(chain(1), "drive force"),
+    "does not move it": lambda: flat_output(Machine([[0, 1], [-9, 0]], [[0], [0]], [[1, 0]]), None),
+    "unknown output": lambda: flat_output(chain(1), "torque"),
+    "of order 4 at least": lambda: driving_law(chain(1), smoothstep(3)),
+    "values must be at least one": lambda: machine_spectrum(belt, [], savin("III", 0)),
+    "did you mean 'force motor-load'": lambda: machine_spectrum(
+        belt, [1.0], savin("III", 0), output="force motor load"
+    ),
+    "make must give a Machine": lambda: machine_spectrum(lambda _: 3, [1.0], savin("III", 0)),  # type: ignore[arg-type,return-value]
+    "same outputs": lambda: machine_spectrum(
+        lambda s: Machine([[-s]], [[s]], [[1.0]], outputs=[f"at {s:g}"]), [1.0, 2.0], savin("III", 0)
+    ),
+}
+
+
+@pytest.mark.parametrize("says", WRONG)
+def test_wrong_inputs_are_named(says: str) -> None:
+    with pytest.raises(InputError, match=says):
+        WRONG[says]()
