@@ -163,33 +163,26 @@ def test_worse_laws_are_left_out() -> None:
 
 
 @pytest.mark.parametrize(
-    ("problem", "over", "match"),
+    ("problem", "options", "match"),
     [
-        (L4, ("B",), "two or three constants"),
-        (L4, ("B", "B"), "each once"),
-        (L4, ("B", "X"), "'X'"),
-        (L4, ("snap + C", "C"), "is no constant of a law but an expression"),
-        (L4, ("B", 3), "over names constants"),
-        (Problem(B=1.6, order=4), ("B", "C"), "B is exchanged"),
-        (Problem(order=4, C=6.0), ("B", "C"), "C is exchanged"),
-        ("L4", ("B", "C"), "takes a Problem"),
+        (L4, {"over": ("B",)}, "two or three constants"),
+        (L4, {"over": ("B", "B")}, "each once"),
+        (L4, {"over": ("B", "X")}, "'X'"),
+        (L4, {"over": ("snap + C", "C")}, "is no constant of a law but an expression"),
+        (L4, {"over": ("B", 3)}, "over names constants"),
+        (Problem(B=1.6, order=4), {}, "B is exchanged"),
+        (Problem(order=4, C=6.0), {}, "C is exchanged"),
+        ("L4", {}, "takes a Problem"),
+        *(
+            (L4, {"between": wrong}, "between must be two numbers")
+            for wrong in [(2.0, 1.0), (1.5,), (0.0, 2.0), (1.5, float("inf")), (True, 2.0)]
+        ),
+        *((L4, {"points": wrong}, "points") for wrong in (1, 2.5, "9")),
     ],
 )
-def test_wrong_questions_are_refused(problem: Problem, over: tuple[str, ...], match: str) -> None:
+def test_wrong_questions_are_refused(problem: Problem, options: dict[str, Any], match: str) -> None:
     with pytest.raises(InputError, match=match):
-        pareto_front(problem, over)
-
-
-@pytest.mark.parametrize("between", [(2.0, 1.0), (1.5,), (0.0, 2.0), (1.5, float("inf")), (True, 2.0)])
-def test_wrong_ranges_are_refused(between: tuple[float, float]) -> None:
-    with pytest.raises(InputError, match="between must be two numbers"):
-        pareto_front(L4, between=between)
-
-
-@pytest.mark.parametrize("points", [1, 2.5, "9"])
-def test_too_few_points_are_refused(points: int) -> None:
-    with pytest.raises(InputError, match="points"):
-        pareto_front(L4, points=points)
+        pareto_front(problem, **{"over": ("B", "C"), **options})
 
 
 def test_a_front_tells_itself(velocity: Front) -> None:

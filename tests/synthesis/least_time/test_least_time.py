@@ -249,18 +249,26 @@ def test_an_acceleration_and_a_jerk_at_the_end_are_the_law_s_and_proven_for_ever
 
 
 @pytest.mark.parametrize(
-    ("ends", "named"),
+    ("problem", "ends", "named"),
     [
-        ({"end_acceleration": -9.0}, "end_acceleration is beyond the limit of the acceleration"),
-        ({"end_acceleration": 1.0, "start_velocity": 0.1}, "begins at rest: give no start_velocity"),
-        ({"end_jerk": 400.0}, "end_jerk is beyond the limit of the jerk"),
-        ({"end_jerk": 1.0, "problem": Problem(order=3)}, "end_jerk needs order >= 4, got order 3"),
-        ({"end_acceleration": float("nan")}, "end_acceleration"),
+        (Problem(order=4), {"end_acceleration": -9.0}, "end_acceleration is beyond the limit of the acceleration"),
+        (Problem(order=4), {"end_acceleration": 1.0, "start_velocity": 0.1}, "begins at rest: give no start_velocity"),
+        (Problem(order=4), {"end_jerk": 400.0}, "end_jerk is beyond the limit of the jerk"),
+        (Problem(order=3), {"end_jerk": 1.0}, "end_jerk needs order >= 4, got order 3"),
+        (Problem(order=4), {"end_acceleration": float("nan")}, "end_acceleration"),
+        (Problem(order=3), {"start_velocity": 1.5}, "start_velocity is beyond the limit"),
+        (Problem(order=1), {"start_velocity": 0.5}, "order >= 2"),
+        (Problem(order=2), {"start_velocity": 0.5, "limits": MoveLimits(jerk=1.0)}, "order >= 3"),
+        (Problem(order=3, B=1.8), {}, "leaves B free"),
+        (Problem(order=3, bounds={"snap": (0.0, 9000.0)}), {}, "leaves snap free"),
+        (Problem(order=3, minimise="J"), {}, "minimises nothing else"),
+        (Problem(order=3, bounds={"rms_c": (4.0, None)}), {}, "rms_c is bounded from below"),
+        (Problem(order=3, inflexion=0.4, symmetric=False), {}, "no inflexion"),
     ],
 )
-def test_ends_that_no_move_has_are_refused(ends: dict[str, Any], named: str) -> None:
+def test_what_no_move_has_is_refused(problem: Problem, ends: dict[str, Any], named: str) -> None:
     with pytest.raises(InputError, match=named):
-        TimedMove(ends.pop("problem", Problem(order=4)), 0.1, UNEVEN, **ends)
+        TimedMove(problem, 0.1, **{"limits": UNEVEN, **ends})
 
 
 @pytest.mark.long
@@ -396,32 +404,6 @@ def test_windows_that_no_law_keeps_are_named() -> None:
     with pytest.raises(InfeasibleProblem, match="no time is long enough") as caught:
         least_time(TimedMove(problem, 1.0, UNEVEN))
     assert caught.value.proof is not None
-
-
-@pytest.mark.parametrize(
-    ("problem", "named"),
-    [
-        (Problem(order=3, B=1.8), "leaves B free"),
-        (Problem(order=3, bounds={"snap": (0.0, 9000.0)}), "leaves snap free"),
-        (Problem(order=3, minimise="J"), "minimises nothing else"),
-        (Problem(order=3, bounds={"rms_c": (4.0, None)}), "rms_c is bounded from below"),
-        (Problem(order=3, inflexion=0.4, symmetric=False), "no inflexion"),
-    ],
-)
-def test_problems_that_say_more_than_the_space_are_refused(problem: Problem, named: str) -> None:
-    with pytest.raises(InputError, match=named):
-        TimedMove(problem, 1.0, UNEVEN)
-
-
-def test_velocities_beyond_their_limit_are_refused() -> None:
-    with pytest.raises(InputError, match="start_velocity is beyond the limit"):
-        TimedMove(Problem(order=3), 1.0, UNEVEN, 1.5)
-
-
-@pytest.mark.parametrize(("order", "limits"), [(1, UNEVEN), (2, MoveLimits(jerk=1.0))])
-def test_ends_that_move_need_an_order(order: int, limits: MoveLimits) -> None:
-    with pytest.raises(InputError, match=f"order >= {order + 1}"):
-        TimedMove(Problem(order=order), 1.0, limits, 0.5)
 
 
 def test_a_deceleration_alone_is_a_limit_of_the_end() -> None:
