@@ -62,7 +62,6 @@ from optlaws.cams.springs_and_flywheels import (
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.report import objective_unit
 from optlaws.cycles.specification.limits import LimitTaken
-from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.specification.segments import OPTIMAL
 from optlaws.cycles.usual_law import usual_cycle
 from optlaws.echo import shortened
@@ -197,11 +196,6 @@ class CamResult:
     def sought(self) -> BestCam | BestPrimeCircle | BestOffset | LeastPrimeCircle | None:
         """What determines the cam where the file does not give all of it."""
         spec, follower, radius, limits = self.spec, self.spec.follower, self.spec.radius, self.spec.constraints
-        if spec.best in {"laws", "prime circle"} and not any(map(is_optimal, spec.cycle.segments)):
-            raise InputError(
-                f"best = {spec.best!r} looks for laws, and each motion has a given one: leave best out, or the law of "
-                "a segment"
-            )
         if spec.best == "prime circle":
             if radius is not None:
                 raise InputError("best = 'prime circle' computes prime_radius: leave it out, or give best = 'laws'")

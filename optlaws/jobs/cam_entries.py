@@ -20,6 +20,7 @@ from optlaws.cams.springs_and_flywheels import (
 )
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.drive import ProcessEntries
+from optlaws.cycles.specification.programme import is_optimal
 from optlaws.entries.declared import ValueOf, declared, entry, same
 from optlaws.entries.value_types import Choice, Listed, Measured, Number, Switch, Whole
 from optlaws.errors import InputError
@@ -137,6 +138,11 @@ class CamProblemFile(CamOfMotion, title="a cam"):
     def _check(self) -> None:
         super()._check()
         _ = self.limits  # which checks them together
+        if self.best in {"laws", "prime circle"} and not any(map(is_optimal, self.cycle.segments)):
+            raise InputError(
+                f"best = {self.best!r} looks for laws, and each motion has a given one: leave best out, or the law of "
+                "a segment"
+            )
 
 
 @declared
