@@ -37,6 +37,7 @@ FORCE_ROUNDING = 1e-7  # of the greatest force, or of a turn: less is shown as 0
 NO_MARK = 1e-9  # of the greater extreme of a curve: one that is less is rounding, and no mark stands at it
 EQUALLY_GOOD = 0.01  # of an objective: laws so little above the least are equally good to a designer
 BOUND_SLACK = 1e-6  # of a least value: at a bound so much above it the solver has room
+BARRIER = 1e-7  # of the greatest multiplier: what is less may be a barrier's, not a contact's
 
 # --- extremes and roots ---------------------------------------------------------------------------------------------
 TIE = 1e-10  # of the greatest magnitude: extremes nearer to each other are as high, and the first of them counts

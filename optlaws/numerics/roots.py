@@ -177,7 +177,7 @@ def falling_root(
         high, low, wider = low, low - wider, 2.0 * wider
         if low < begin - widest:
             return high
-    above, below, kept = excess(low), excess(high), ""
+    above, below, stayed = excess(low), excess(high), ""
     for _ in range(_FALLING):
         if high - low <= met or below == 0.0:
             break
@@ -188,9 +188,9 @@ def falling_root(
         value = excess(middle)
         # an end that stays twice counts half (Illinois)
         if value > 0.0:
-            low, above, below, kept = middle, value, below * (0.5 if kept == "high" else 1.0), "high"
+            low, above, below, stayed = middle, value, below * (0.5 if stayed == "high" else 1.0), "high"
         else:
-            high, below, above, kept = middle, value, above * (0.5 if kept == "low" else 1.0), "low"
+            high, below, above, stayed = middle, value, above * (0.5 if stayed == "low" else 1.0), "low"
     return high
 
 

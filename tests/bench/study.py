@@ -94,7 +94,7 @@ def watched(points: int, degree: int, workers: int) -> Stopwatch:
 
 PARTS = {
     "programs": ("optlaws.synthesis.method.exchange.answer_on_points",),
-    "Newton": ("optlaws.synthesis.method.contacts.newton", "optlaws.synthesis.method.identified.newton"),
+    "Newton": ("optlaws.synthesis.method.contacts.newton",),
     "proof": ("optlaws.synthesis.search.certify", "optlaws.synthesis.search.lower_bound"),
     "synthesis": ("optlaws.studies.chunk.synthesize", "optlaws.studies.chunk.solved"),
     "constants": ("optlaws.studies.chunk._of_solution", "optlaws.studies.chunk._of_solutions"),

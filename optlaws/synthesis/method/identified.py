@@ -11,9 +11,9 @@ from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet, Contact
 from optlaws.synthesis.families.family import ConstraintFamily, Points, Program
 from optlaws.synthesis.method.contacts import completed, polished
-from optlaws.synthesis.method.discretised.answer import BARRIER, Answer
+from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.synthesis.method.discretised.linear import sharpened
-from optlaws.tolerances import EXCESS, SAME_PLACE
+from optlaws.tolerances import BARRIER, EXCESS, SAME_PLACE
 
 _SAME_HEIGHT = 1e-9  # what an extremum's residual may be below that of a point on its hill: rounding of a series
 

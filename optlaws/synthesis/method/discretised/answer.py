@@ -9,7 +9,6 @@ import numpy as np
 from optlaws.numbers import Array
 from optlaws.synthesis.families.family import Points, Program
 
-BARRIER = 1e-7  #: of the greatest multiplier: what is less may be a barrier's, not a contact's
 QUADRATIC = "quadratic programs"  #: that follow each other, whether or not the last one changed nothing
 _NEARLY = (QUADRATIC, "Solved_To_Acceptable_Level")
 

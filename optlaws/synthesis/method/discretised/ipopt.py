@@ -11,9 +11,9 @@ from optlaws.lazy import casadi_lock
 from optlaws.numbers import Array
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
-from optlaws.synthesis.method.discretised.answer import BARRIER, Answer
+from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.synthesis.method.discretised.expressions import CONES, RowShape, order_of, shape_and_numbers
-from optlaws.tolerances import EMPTY_ROW
+from optlaws.tolerances import BARRIER, EMPTY_ROW
 
 _QUIET = {"print_time": False, "show_eval_warnings": False, "ipopt.print_level": 0, "ipopt.sb": "yes"}
 # nobody asks how the optimum depends on the parameters, which are all the rows
