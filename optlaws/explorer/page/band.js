@@ -2,8 +2,8 @@
 
 import { slider } from "./form.js";
 import { Latest } from "./latest.js";
-import { Strip } from "./strip.js";
-import { html } from "./svg.js";
+import { createStrip } from "./panels.js";
+import { button, html } from "./svg.js";
 import { plain } from "./units.js";
 
 const STEP = 0.1;
@@ -25,73 +25,62 @@ function measured(text) {
   return { pairs, hertz: lines.some((line) => /\bHz\b/i.test(line)) };
 }
 
-export class Band {
-  strip;
-  elements;
-  #study;
-  #bound;
-  #toggle;
-  #duration;
-  #field = html("input", { type: "file", accept: ".csv,.txt,.tsv,.dat,.tab", hidden: true, "aria-label": "File of a measured spectrum" });
-  #spectrum = html("div", { class: "spectrum", translate: "no" });
-  #asked;
-  #last = null;
-  #name = "";
-  #answer = null;
-
-  constructor(study) {
-    this.#study = study;
-    this.strip = new Strip({ step: STEP, chosen: () => {}, moved: (i, at) => this.change("band", (state) => (state.band[i] = at)), rested: () => study.rest() });
-    this.#toggle = html("button", { type: "button", "aria-pressed": "false", text: "band", title: "A band of frequencies that the follower may have", onclick: () => this.change("band on", (state) => {
-      if (state.band) delete state.band;
-      else state.band = [1 - WIDE, 1 + WIDE].map((share) => Number((share * state.frequency).toPrecision(3)));
-      if (!state.band && !state.spectrum) bind(state, null);
-    }) });
-    this.#bound = slider({
-      name: "in it ≤", title: "Greatest residual acceleration in the band", low: 0, high: 5, step: 0.01, off: true,
-      changed: (value) => this.#limit(value), rested: () => study.rest(),
-    });
-    this.#field.addEventListener("change", () => this.#field.files.length && this.read(this.#field.files[0]).catch((error) => this.#say(error.message)));
-    const choose = html("button", { type: "button", text: "spectrum …", title: "Weigh the band by a measured spectrum: frequency and amplitude in a file, which can be dropped here", onclick: () => {
-      this.#field.value = "";
-      this.#field.click();
-    } });
-    this.#duration = html("input", { type: "text", class: "short", maxlength: 40, "aria-label": "Duration of the motion, for frequencies in Hz" });
-    this.#duration.addEventListener("change", () => this.#take(this.#study.state.spectrum.raw, plain(this.#duration.value.trim())));
-    this.#asked = new Latest("api/spectrum", ({ seconds }, question) => this.#taken(question, seconds), (error) => this.#say(error.message));
-    this.elements = [html("div", { class: "band" }, this.#toggle, choose, this.#field, this.#spectrum), this.#bound.element];
-  }
+export function createBand(study) {
+  const field = html("input", { type: "file", accept: ".csv,.txt,.tsv,.dat,.tab", hidden: true, "aria-label": "File of a measured spectrum" });
+  const spectrumRow = html("div", { class: "spectrum", translate: "no" });
+  let last = null;
+  let name = "";
+  let known = null;
+  const strip = createStrip({ step: STEP, chosen: () => {}, moved: (i, at) => change("band", (state) => (state.band[i] = at)), rested: () => study.rest() });
+  const toggle = button("band", () => change("band on", (state) => {
+    if (state.band) delete state.band;
+    else state.band = [1 - WIDE, 1 + WIDE].map((share) => Number((share * state.frequency).toPrecision(3)));
+    if (!state.band && !state.spectrum) bind(state, null);
+  }), { "aria-pressed": "false", title: "A band of frequencies that the follower may have" });
+  const bound = slider({
+    name: "in it ≤", title: "Greatest residual acceleration in the band", low: 0, high: 5, step: 0.01, off: true,
+    changed: limit, rested: () => study.rest(),
+  });
+  field.addEventListener("change", () => field.files.length && read(field.files[0]).catch((error) => say(error.message)));
+  const choose = button("spectrum …", () => {
+    field.value = "";
+    field.click();
+  }, { title: "Weigh the band by a measured spectrum: frequency and amplitude in a file, which can be dropped here" });
+  const duration = html("input", { type: "text", class: "short", maxlength: 40, "aria-label": "Duration of the motion, for frequencies in Hz" });
+  duration.addEventListener("change", () => take(study.state.spectrum.raw, plain(duration.value.trim())));
+  const asked = new Latest("api/spectrum", ({ seconds }, question) => taken(question, seconds), (error) => say(error.message));
+  const elements = [html("div", { class: "band" }, toggle, choose, field, spectrumRow), bound.element];
 
   /** Change the follower; a bound that a law has in the band goes with it. */
-  change(what, alter) {
-    this.#study.change(what, (state) => {
+  function change(what, alter) {
+    study.change(what, (state) => {
       alter(state);
       if (state.laws.some((law) => boundOf(law) !== null)) bind(state);
     });
   }
 
-  question({ band, spectrum }) {
+  function question({ band, spectrum }) {
     return { ...(band && { band }), ...(spectrum && { spectrum: spectrum.raw, ...(spectrum.duration && { duration: spectrum.duration }) }) };
   }
 
-  show(state) {
+  function show(state) {
     const { band, spectrum, laws, active } = state;
-    this.#toggle.setAttribute("aria-pressed", String(Boolean(band)));
-    this.#bound.element.hidden = !laws[active].problem || !(band || spectrum);
-    this.#bound.set(boundOf(laws[active]));
-    const remove = () => this.change("spectrum", (next) => {
+    toggle.setAttribute("aria-pressed", String(Boolean(band)));
+    bound.element.hidden = !laws[active].problem || !(band || spectrum);
+    bound.set(boundOf(laws[active]));
+    const remove = () => change("spectrum", (next) => {
       delete next.spectrum;
       if (!next.band) bind(next, null);
     });
-    const parts = spectrum ? [html("span", { text: spectrum.name ?? "" }), ...(spectrum.duration ? [html("label", {}, "in ", this.#duration)] : []), html("button", { type: "button", class: "close", "aria-label": "Take the spectrum away", text: "×", onclick: remove })] : [];
-    if (JSON.stringify([spectrum?.name, spectrum?.duration]) !== this.#last) this.#spectrum.replaceChildren(...parts);
-    this.#last = JSON.stringify([spectrum?.name, spectrum?.duration]);
-    if (spectrum?.duration && document.activeElement !== this.#duration) this.#duration.value = spectrum.duration;
+    const parts = spectrum ? [html("span", { text: spectrum.name ?? "" }), ...(spectrum.duration ? [html("label", {}, "in ", duration)] : []), button("×", remove, { class: "close", "aria-label": "Take the spectrum away" })] : [];
+    if (JSON.stringify([spectrum?.name, spectrum?.duration]) !== last) spectrumRow.replaceChildren(...parts);
+    last = JSON.stringify([spectrum?.name, spectrum?.duration]);
+    if (spectrum?.duration && document.activeElement !== duration) duration.value = spectrum.duration;
   }
 
   /** What the residual is shown with: the ends of the band, its bound, and the spectrum below. */
-  picture(picture, answer, { laws, active }) {
-    this.#answer = answer;
+  function picture(picture, answer, { laws, active }) {
+    known = answer;
     const { band, weight } = answer;
     const bound = boundOf(laws[active]);
     if (!band) return picture;
@@ -108,43 +97,45 @@ export class Band {
     };
   }
 
-  words({ band, laws, weight }) {
+  function words({ band, laws, weight }) {
     if (!band) return "";
     const each = laws.map((law, i) => `${"ABCD"[i]} ${law?.band ? `${law.band.text} at ${law.band.at}` : "—"}`).join(", ");
     return `; greatest${weight.length ? ", weighed," : ""} in the band ${band.map((one) => Number(one.toPrecision(4))).join(" to ")}: ${each}`;
   }
 
   /** Read a file of a measured spectrum; says that it is taken. */
-  async read(file) {
+  async function read(file) {
     if (file.size > LARGEST) throw new Error(`${file.name} is larger than ${LARGEST / 1e6} MB`);
     const { pairs, hertz } = measured(await file.text());
     if (pairs.length < 2) throw new Error(`${file.name} has no lines of a frequency and an amplitude`);
-    this.#name = file.name.slice(-60);
-    this.#take(pairs, hertz ? this.#study.state.controller?.time || TIME : null);
+    name = file.name.slice(-60);
+    take(pairs, hertz ? study.state.controller?.time || TIME : null);
     return true;
   }
 
-  #take(pairs, duration) {
-    this.#asked.ask({ laws: this.#study.state.laws, spectrum: pairs, ...(duration && { duration }) });
+  function take(pairs, duration) {
+    asked.ask({ laws: study.state.laws, spectrum: pairs, ...(duration && { duration }) });
   }
 
-  #taken({ spectrum: pairs, duration }, seconds) {
-    this.change("spectrum", (state) => {
-      state.spectrum = { name: this.#name || state.spectrum?.name, raw: pairs, ...(duration && { duration, seconds }) };
+  function taken({ spectrum: pairs, duration }, seconds) {
+    change("spectrum", (state) => {
+      state.spectrum = { name: name || state.spectrum?.name, raw: pairs, ...(duration && { duration, seconds }) };
     });
   }
 
-  #say(text) {
-    this.#last = null;
-    this.#spectrum.replaceChildren(html("span", { class: "over", text }));
+  function say(text) {
+    last = null;
+    spectrumRow.replaceChildren(html("span", { class: "over", text }));
   }
 
-  #limit(value) {
-    this.#study.change("bound in the band", (state) => {
-      const now = this.#answer?.laws?.[state.active]?.band?.value ?? 1;
+  function limit(value) {
+    study.change("bound in the band", (state) => {
+      const now = known?.laws?.[state.active]?.band?.value ?? 1;
       bind(state, value === undefined ? Number((SHARE * now).toPrecision(3)) : value, state.active);
     });
   }
+
+  return { strip, elements, change, question, show, picture, words, read };
 }
 
 /** The bound of the residual that a law has, or null. */

@@ -2,7 +2,7 @@
 
 import { FIRST, read, written } from "./state.js";
 import { keys, remove, store, stored } from "./store.js";
-import { html } from "./svg.js";
+import { button, html } from "./svg.js";
 import { VIEWS } from "./views.js";
 
 const LAST = "optlaws-study";
@@ -38,33 +38,27 @@ export function titled(state) {
 }
 
 /** The name and the notes, in a dialog; the title of the browser's tab. */
-export class Details {
-  #name = html("input", { type: "text", maxlength: 80, "aria-label": "Name of the document" });
-  #notes = html("textarea", { maxlength: 20_000, "aria-label": "Notes" });
-  #dialog;
+export function createDetails(study) {
+  const name = html("input", { type: "text", maxlength: 80, "aria-label": "Name of the document" });
+  const notes = html("textarea", { maxlength: 20_000, "aria-label": "Notes" });
+  name.addEventListener("input", () => study.change("name", (state) => (state.name = name.value)));
+  notes.addEventListener("input", () => study.change("notes", (state) => (state.notes = notes.value)));
+  const done = button("Done", () => dialog.close());
+  const links = earlier().map(({ key, title, address }) => {
+    const item = html("li", {}, html("a", { href: address, target: "_blank", text: title }), " ", button("delete", () => {
+      remove(key);
+      item.remove();
+    }, { class: "link", "aria-label": `Delete ${title}` }));
+    return item;
+  });
+  const kept = links.length ? [html("h3", { text: "Documents of an earlier version" }), html("ul", {}, ...links)] : [];
+  const dialog = html("dialog", { id: "document-dialog", "aria-label": "Document" }, html("h2", { text: "Document" }), html("label", {}, "name", name), html("label", {}, "notes", notes), ...kept, html("div", { class: "buttons" }, done));
+  document.body.append(dialog);
 
-  constructor(study) {
-    this.#name.addEventListener("input", () => study.change("name", (state) => (state.name = this.#name.value)));
-    this.#notes.addEventListener("input", () => study.change("notes", (state) => (state.notes = this.#notes.value)));
-    const done = html("button", { type: "button", text: "Done", onclick: () => this.#dialog.close() });
-    const links = earlier().map(({ key, title, address }) => {
-      const item = html("li", {}, html("a", { href: address, target: "_blank", text: title }), " ", html("button", { type: "button", class: "link", "aria-label": `Delete ${title}`, text: "delete", onclick: () => {
-        remove(key);
-        item.remove();
-      } }));
-      return item;
-    });
-    const kept = links.length ? [html("h3", { text: "Documents of an earlier version" }), html("ul", {}, ...links)] : [];
-    this.#dialog = html("dialog", { id: "document-dialog", "aria-label": "Document" }, html("h2", { text: "Document" }), html("label", {}, "name", this.#name), html("label", {}, "notes", this.#notes), ...kept, html("div", { class: "buttons" }, done));
-    document.body.append(this.#dialog);
-  }
-
-  show(state) {
-    for (const [field, value] of [[this.#name, state.name], [this.#notes, state.notes]]) if (field.value !== value) field.value = value;
+  function show(state) {
+    for (const [field, value] of [[name, state.name], [notes, state.notes]]) if (field.value !== value) field.value = value;
     document.title = `${titled(state)} - optlaws`;
   }
 
-  open() {
-    this.#dialog.showModal();
-  }
+  return { show, open: () => dialog.showModal() };
 }

@@ -1,7 +1,7 @@
 // Motions for controllers: a format is chosen, and what the controller will run stands beside the law before it is saved.
 
 import { download } from "./files.js";
-import { Form, choice } from "./form.js";
+import { choice, createForm } from "./form.js";
 import { Latest } from "./latest.js";
 import { table } from "./report.js";
 import { button, html } from "./svg.js";
@@ -17,66 +17,58 @@ const FIELDS = [
 /** The machine of a state; what was emptied stays so. */
 const machineOf = ({ controller }) => (controller?.format ? controller : { ...MACHINE, ...controller });
 
-export class Exporting {
-  #study;
-  #formats;
-  #dialog;
-  #result = html("div", { class: "report", "aria-live": "polite" });
-  #form;
-  #rows;
-  #save = button("Save the file", () => this.#answer && download(this.#answer), { disabled: true });
-  #answer = null;
-  #asked = new Latest("api/export", (answer) => this.#show(answer), (error) => this.#refuse(error));
-  #motion;
+/** `motion(state)` is what the view that is shown has to export: entries of the question, or null. */
+export function createExporting(study, formats, motion) {
+  const result = html("div", { class: "report", "aria-live": "polite" });
+  const save = button("Save the file", () => file && download(file), { disabled: true });
+  let file = null;
+  const asked = new Latest("api/export", showAnswer, refuse);
+  const motionOf = motion;
+  const formatsByName = Object.fromEntries(formats.map((one) => [one.name, one]));
+  const change = (what, alter) => study.change(`export ${what}`, (state) => alter((state.controller = machineOf(state))));
+  const form = createForm(change, () => study.rest());
+  const targets = Object.fromEntries(formats.map(({ name, target }) => [name, `${name}: ${target}`]));
+  const format = choice("format", targets, MACHINE.format, (value) => change("format", (machine) => (machine.format = value)));
+  form.also((machine) => (format.value = machine.format));
+  const rows = FIELDS.map((entry) => [entry.path[0], form.field(entry, entry.label)]);
+  const dialog = html("dialog", { "aria-label": "Export for a controller" }, html("h2", { text: "Export for a controller" }), format, html("div", { class: "machine" }, ...rows.map(([, row]) => row)), result, html("div", { class: "buttons" }, save, button("Close", () => dialog.close())));
+  document.body.append(dialog);
 
-  /** `motion(state)` is what the view that is shown has to export: entries of the question, or null. */
-  constructor(study, formats, motion) {
-    this.#study = study;
-    this.#motion = motion;
-    this.#formats = Object.fromEntries(formats.map((one) => [one.name, one]));
-    const change = (what, alter) => study.change(`export ${what}`, (state) => alter((state.controller = machineOf(state))));
-    this.#form = new Form(change, () => study.rest());
-    const targets = Object.fromEntries(formats.map(({ name, target }) => [name, `${name}: ${target}`]));
-    const format = choice("format", targets, MACHINE.format, (value) => change("format", (machine) => (machine.format = value)));
-    this.#form.also((machine) => (format.value = machine.format));
-    this.#rows = FIELDS.map((entry) => [entry.path[0], this.#form.field(entry, entry.label)]);
-    this.#dialog = html("dialog", { "aria-label": "Export for a controller" }, html("h2", { text: "Export for a controller" }), format, html("div", { class: "machine" }, ...this.#rows.map(([, row]) => row)), this.#result, html("div", { class: "buttons" }, this.#save, button("Close", () => this.#dialog.close())));
-    document.body.append(this.#dialog);
+  function open() {
+    if (!motionOf(study.state)) return;
+    dialog.showModal();
+    show(study.state);
   }
 
-  open() {
-    if (!this.#motion(this.#study.state)) return;
-    this.#dialog.showModal();
-    this.show(this.#study.state);
-  }
-
-  show(state) {
+  function show(state) {
     const machine = machineOf(state);
-    const motion = this.#motion(state);
-    const { takes = [] } = this.#formats[machine.format] ?? {};
-    this.#form.show(machine);
-    for (const [name, row] of this.#rows) row.hidden = name in MACHINE ? motion?.view !== "laws" : !takes.includes(name);
-    if (!this.#dialog.open || !motion) return;
-    this.#answer = null;
-    this.#save.disabled = true;
+    const motion = motionOf(state);
+    const { takes = [] } = formatsByName[machine.format] ?? {};
+    form.show(machine);
+    for (const [name, row] of rows) row.hidden = name in MACHINE ? motion?.view !== "laws" : !takes.includes(name);
+    if (!dialog.open || !motion) return;
+    file = null;
+    save.disabled = true;
     const { format: kind, stroke = "", time = "", master = "", ...others } = machine;
-    this.#asked.ask({ kind, stroke, time, master, ...Object.fromEntries(Object.entries(others).filter(([name]) => takes.includes(name))), ...motion });
+    asked.ask({ kind, stroke, time, master, ...Object.fromEntries(Object.entries(others).filter(([name]) => takes.includes(name))), ...motion });
   }
 
-  #show(answer) {
-    this.#answer = answer;
-    this.#save.disabled = false;
-    this.#save.textContent = `Save ${answer.name}`;
-    this.#result.replaceChildren(
+  function showAnswer(answer) {
+    file = answer;
+    save.disabled = false;
+    save.textContent = `Save ${answer.name}`;
+    result.replaceChildren(
       html("p", { text: answer.words }), ...answer.notes.map((text) => html("p", { class: "quiet", text })),
       table("What the controller will run", ["", "as executed", "as designed", "ratio"], answer.rows, { right: true }),
     );
   }
 
   /** Nothing of an earlier export is left where there is none. */
-  #refuse(error) {
-    this.#answer = null;
-    this.#save.disabled = true;
-    this.#result.replaceChildren(html("p", { class: "reason" }, html("strong", { class: "word refused", text: "no export" }), ` ${error.message}`));
+  function refuse(error) {
+    file = null;
+    save.disabled = true;
+    result.replaceChildren(html("p", { class: "reason" }, html("strong", { class: "word refused", text: "no export" }), ` ${error.message}`));
   }
+
+  return { open, show };
 }

@@ -73,63 +73,54 @@ function picture(selector) {
 
 /** `opened(state)` shows what a file holds, `prove(name, text)` checks its proof; `view()` is the view that is shown, which may
  *  take files of its own. */
-export class Opening {
-  #opened;
-  #notice;
-  #view;
-  #prove;
-  #field = html("input", { type: "file", accept: TAKEN, multiple: true, hidden: true, "aria-label": "Files to open", onchange: () => this.#all([...this.#field.files]) });
-
-  constructor(opened, notice, view, prove) {
-    this.#opened = opened;
-    this.#notice = notice;
-    this.#view = view;
-    this.#prove = prove;
-    document.body.append(this.#field);
-    const files = (event) => event.dataTransfer?.types.includes("Files");
-    addEventListener("dragover", (event) => {
-      if (!files(event)) return;
-      event.preventDefault();
-      document.body.classList.add("dropping");
-    });
-    addEventListener("dragleave", (event) => event.relatedTarget === null && document.body.classList.remove("dropping"));
-    addEventListener("drop", (event) => {
-      document.body.classList.remove("dropping");
-      if (!files(event) || event.defaultPrevented) return;
-      event.preventDefault();
-      this.#all([...event.dataTransfer.files]);
-    });
-  }
+export function createOpening(opened, notice, view, prove) {
+  const field = html("input", { type: "file", accept: TAKEN, multiple: true, hidden: true, "aria-label": "Files to open", onchange: () => all([...field.files]) });
+  document.body.append(field);
+  const files = (event) => event.dataTransfer?.types.includes("Files");
+  addEventListener("dragover", (event) => {
+    if (!files(event)) return;
+    event.preventDefault();
+    document.body.classList.add("dropping");
+  });
+  addEventListener("dragleave", (event) => event.relatedTarget === null && document.body.classList.remove("dropping"));
+  addEventListener("drop", (event) => {
+    document.body.classList.remove("dropping");
+    if (!files(event) || event.defaultPrevented) return;
+    event.preventDefault();
+    all([...event.dataTransfer.files]);
+  });
 
   /** Open a file; one with a proof can be checked as well, and where the page opens no such file that is all. */
-  async #one(file) {
+  async function one(file) {
     const text = /\.json$/i.test(file.name) ? await file.text() : "";
     const proves = PROOF.test(text);
-    const check = () => this.#prove(file.name, text);
+    const check = () => prove(file.name, text);
     try {
-      this.#opened(await stateOf(file));
+      opened(await stateOf(file));
     } catch (error) {
       if (!proves) throw error;
       return check();
     }
-    return proves ? this.#notice(`${file.name} has a proof.`, button("check this proof", check)) : this.#notice("");
+    return proves ? notice(`${file.name} has a proof.`, button("check this proof", check)) : notice("");
   }
 
-  choose() {
-    this.#field.value = "";
-    this.#field.click();
+  function choose() {
+    field.value = "";
+    field.click();
   }
 
-  async #all(files) {
+  async function all(files) {
     for (const file of files) {
       try {
-        if (await this.#view()?.dropped?.(file)) this.#notice("");
-        else await this.#one(file);
+        if (await view()?.dropped?.(file)) notice("");
+        else await one(file);
       } catch (error) {
-        this.#notice(error.message);
+        notice(error.message);
       }
     }
   }
+
+  return { choose };
 }
 
 /** The text of a file in UTF-8, in UTF-16 with its mark, in Latin-1 or, where signs would stand within words, in Windows-1250. */

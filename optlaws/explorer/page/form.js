@@ -106,57 +106,48 @@ function flattened(entries, path = []) {
   });
 }
 
-export class Form {
-  #change;
-  #rested;
-  #taken;
-  #shape = "";
-  #shows = [];
-
-  /** `change(what, alter)` changes the table, `rested()` ends a step; `taken(table, path, before)` may alter what another
-      kind leaves behind, `before` being the table of the former kind. */
-  constructor(change, rested, taken = () => {}) {
-    this.#change = change;
-    this.#rested = rested;
-    this.#taken = taken;
-  }
+/** `change(what, alter)` changes the table, `rested()` ends a step; `taken(table, path, before)` may alter what another
+    kind leaves behind, `before` being the table of the former kind. */
+export function createForm(change, rested, taken = () => {}) {
+  let shownShape = "";
+  let shows = [];
 
   /** Show a table in the fields of an element; they are made anew where what decides which there are has changed. */
-  draw(root, shape, table, make) {
+  function draw(root, shape, table, make) {
     const text = JSON.stringify(shape);
-    if (text !== this.#shape) {
-      this.#shows = [];
+    if (text !== shownShape) {
+      shows = [];
       renew(root, ...make());
     }
-    this.#shape = text;
-    this.show(table);
+    shownShape = text;
+    show(table);
   }
 
   /** Show what a table holds. */
-  show(table) {
-    for (const show of this.#shows) show(table);
+  function show(table) {
+    for (const show of shows) show(table);
   }
 
   /** `show(table)` is called whenever a table is shown. */
-  also(show) {
-    this.#shows.push(show);
+  function also(show) {
+    shows.push(show);
   }
 
   /** Fields of declared entries of the table at a path; names that a reader of the screen hears begin after `base`. */
-  fields(entries, path = [], base = path) {
-    return flattened(entries, path).flatMap((one) => (one.kinds ? this.#kinds(one) : this.field(one, spoken(one.path.slice(base.length)))));
+  function fields(entries, path = [], base = path) {
+    return flattened(entries, path).flatMap((one) => (one.kinds ? kinds(one) : field(one, spoken(one.path.slice(base.length)))));
   }
 
   /** The field of an entry at its path; `name` is what a reader of the screen hears. */
-  field({ path, label, about, placeholder, choices, needed, default: usual, isText = WORDS.includes(path.at(-1)) }, name = spoken(path)) {
+  function field({ path, label, about, placeholder, choices, needed, default: usual, isText = WORDS.includes(path.at(-1)) }, name = spoken(path)) {
     const options = [...(needed ? [] : [""]), ...(choices ?? []).map(String)].filter((value) => value !== String(usual));
     const field = choices
       ? html("select", { "aria-label": name }, ...options.map((value) => html("option", { value, text: value || String(usual ?? (placeholder || "—")), translate: "no" })))
       : html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 2000, "aria-label": name, ...(path.at(-1) === "law" && { list: "names" }) });
     const given = () => (NOTHING.includes(field.value.trim()) ? "" : plain(field.value.trim()));
-    field.addEventListener("input", () => this.#change(name, (table) => put(table, path, given(), isText)));
-    field.addEventListener("change", () => this.#rested());
-    this.also((table) => {
+    field.addEventListener("input", () => change(name, (table) => put(table, path, given(), isText)));
+    field.addEventListener("change", () => rested());
+    also((table) => {
       const value = textOf(at(table, path)) ?? "";
       const shown = choices && value === String(usual) ? "" : value;
       // what is being written is left as it is as long as it says what the table has
@@ -167,25 +158,27 @@ export class Form {
   }
 
   /** The choice of one of several kinds of a table, and below it the fields of that kind. */
-  #kinds({ kinds, path }) {
+  function kinds({ kinds, path }) {
     const base = typeof path.at(-1) === "number" ? path.slice(0, -2) : path; // the table of a list is heard with its number
     const name = base === path ? `kind of ${spoken(path)}` : `${spoken(path.slice(base.length))} kind`;
     const below = html("div", { class: "kind" });
-    const own = new Form(this.#change, this.#rested, this.#taken);
-    const choose = choice(name, Object.keys(kinds), "", (kind) => this.#change(name, (table) => {
+    const own = createForm(change, rested, taken);
+    const choose = choice(name, Object.keys(kinds), "", (kind) => change(name, (table) => {
       const before = { ...at(table, path) };
       put(table, [...path, "kind"], kind);
       const now = at(table, path);
       for (const one of Object.keys(now)) if (one !== "kind") delete now[one];
       for (const { name: one, needed, example } of kinds[kind]) if (needed) now[one] = structuredClone(example);
-      this.#taken(table, path, before);
+      taken(table, path, before);
     }));
-    this.also((table) => {
+    also((table) => {
       const kind = (choose.value = at(table, path)?.kind);
       own.draw(below, kind, table, () => own.fields(kinds[kind] ?? [], path, base));
     });
     return [choose, below];
   }
+
+  return { draw, show, also, fields, field };
 }
 
 /** A card of a list of tables: its number, what is done with it, and its fields. */

@@ -1,7 +1,7 @@
 // The forms of the one machine that five tabs show, in the tab that is shown: its axes, its mechanism and drive, its
 // interlocks, and the programme of its cycle with limits and segments, which a cam has too.
 
-import { Form, card, choice, entry, slider } from "./form.js";
+import { card, choice, createForm, entry, slider } from "./form.js";
 import { group } from "./layout.js";
 import { button, html, renew } from "./svg.js";
 
@@ -18,99 +18,89 @@ const MOVES = ["rise", "return", "move"];
 const SPEEDS = { speed: "200 rpm", period: "0.3 s" };
 const RATIOS = [0.1, 200];
 
-export class MachineForms {
-  #element = html("aside", { id: "machine-forms", "aria-label": "The machine" });
-  #own = html("div");
-  #parts;
-  #forms;
-
-  constructor(study, known) {
-    const { interlocks } = known.programme;
-    const [names, mechanism, locks, programme] = ["axes-names", "machine-form", "axes-interlocks", "programme"].map((id) => html("div", { id }));
-    this.#parts = { names, mechanism, interlocks: locks, programme };
-    this.#element.append(names, this.#own, mechanism, locks, programme);
-    this.#forms = [
-      new AxisNames(names, study, interlocks), new MachineForm(mechanism, study, known), new Interlocks(locks, study, interlocks),
-      new Programme(programme, study, ({ machine }) => machine, known.programme),
-    ];
-  }
+export function createMachineForms(study, known) {
+  const element = html("aside", { id: "machine-forms", "aria-label": "The machine" });
+  const ownPart = html("div");
+  const { interlocks } = known.programme;
+  const [names, mechanism, locks, programme] = ["axes-names", "machine-form", "axes-interlocks", "programme"].map((id) => html("div", { id }));
+  const parts = { names, mechanism, interlocks: locks, programme };
+  element.append(names, ownPart, mechanism, locks, programme);
+  const forms = [
+    createAxisNames(names, study, interlocks), createMachineForm(mechanism, study, known), createInterlocks(locks, study, interlocks),
+    createProgramme(programme, study, ({ machine }) => machine, known.programme),
+  ];
 
   /** Show the machine of a state in a tab, with what it asks besides. */
-  show(state, tab, root, own = null) {
-    if (this.#element.parentNode !== root) root.prepend(this.#element);
-    if (this.#own.firstChild !== own) this.#own.replaceChildren(...(own ? [own] : []));
+  function show(state, tab, root, own = null) {
+    if (element.parentNode !== root) root.prepend(element);
+    if (ownPart.firstChild !== own) ownPart.replaceChildren(...(own ? [own] : []));
     const moves = tab === "fastest" && state.fastest !== undefined; // which are no machine
-    for (const [name, part] of Object.entries(this.#parts)) part.hidden = moves || (name in ONLY && ONLY[name] !== tab);
-    for (const form of this.#forms) form.show(state);
+    for (const [name, part] of Object.entries(parts)) part.hidden = moves || (name in ONLY && ONLY[name] !== tab);
+    for (const form of forms) form.show(state);
   }
+
+  return { show };
 }
 
 /** The entry of an interlock that names the other axis, by the kind. */
 const otherOf = (kinds, kind) => kinds[kind]?.find(({ name, axis }) => axis && name !== "axis")?.name;
 
 /** The names of axes, one more, one less; what interlocks and an overlap say of an axis follows. */
-class AxisNames {
-  #root;
-  #study;
-  #kinds;
-  #shape = "";
+function createAxisNames(root, study, kinds) {
+  let shownShape = "";
 
-  constructor(root, study, kinds) {
-    this.#root = root;
-    this.#study = study;
-    this.#kinds = kinds;
-  }
-
-  show({ machine, axis }) {
+  function show({ machine, axis }) {
     const names = machine.axis.map(({ name }) => name);
     const shape = JSON.stringify([names, axis]);
-    if (shape === this.#shape) return;
-    this.#shape = shape;
-    renew(this.#root, group("Axes", ...names.map((name, i) => this.#row(name, i, names, i === Math.min(axis, names.length - 1))), button("+ axis", () => this.#add(names))));
+    if (shape === shownShape) return;
+    shownShape = shape;
+    renew(root, group("Axes", ...names.map((name, i) => row(name, i, names, i === Math.min(axis, names.length - 1))), button("+ axis", () => add(names))));
   }
 
-  #change(what, alter) {
-    this.#study.change(what, alter);
-    this.#study.rest();
+  function change(what, alter) {
+    study.change(what, alter);
+    study.rest();
   }
 
-  #row(name, i, names, chosen) {
+  function row(name, i, names, chosen) {
     const field = html("input", { type: "text", value: name, spellcheck: "false", maxlength: 60, "aria-label": `name of axis ${i + 1}`, "data-key": `axis ${i}` });
     field.addEventListener("change", () => {
       const now = field.value.trim();
-      if (now && !names.includes(now)) this.#change(`rename ${i}`, ({ machine }) => this.#rename(machine, i, now));
+      if (now && !names.includes(now)) change(`rename ${i}`, ({ machine }) => renameAxis(machine, i, now));
       else field.value = name;
     });
-    const choose = html("input", { type: "radio", name: "axis-of-programme", checked: chosen, "aria-label": `segments of axis ${i + 1}`, title: "its segments stand below", onchange: () => this.#change("axis", (state) => (state.axis = i)) });
-    const remove = button("×", () => this.#change(`remove axis ${i}`, (state) => {
-      this.#remove(state.machine, i);
+    const choose = html("input", { type: "radio", name: "axis-of-programme", checked: chosen, "aria-label": `segments of axis ${i + 1}`, title: "its segments stand below", onchange: () => change("axis", (state) => (state.axis = i)) });
+    const remove = button("×", () => change(`remove axis ${i}`, (state) => {
+      removeAxis(state.machine, i);
       state.axis = Math.min(state.axis > i ? state.axis - 1 : state.axis, state.machine.axis.length - 1);
     }), { class: "close", disabled: names.length < 2, "aria-label": `Remove axis ${i + 1}`, title: "Remove this axis, and its interlocks" });
     return html("div", { class: "axis-name" }, choose, field, remove);
   }
 
-  #add(names) {
+  function add(names) {
     const name = Array.from({ length: names.length + 1 }, (_, i) => `axis ${names.length + 1 + i}`).find((one) => !names.includes(one));
-    this.#change("add axis", (state) => (state.axis = state.machine.axis.push({ name, segment: structuredClone(FRESH_AXIS) }) - 1));
+    change("add axis", (state) => (state.axis = state.machine.axis.push({ name, segment: structuredClone(FRESH_AXIS) }) - 1));
   }
 
   /** Call an axis by another name, wherever it is named. */
-  #rename({ axis, interlocks = [], overlap }, i, now) {
+  function renameAxis({ axis, interlocks = [], overlap }, i, now) {
     const was = axis[i].name;
     axis[i].name = now;
-    for (const rule of interlocks) for (const key of ["axis", otherOf(this.#kinds, rule.kind)]) if (rule[key] === was) rule[key] = now;
+    for (const rule of interlocks) for (const key of ["axis", otherOf(kinds, rule.kind)]) if (rule[key] === was) rule[key] = now;
     if (overlap?.of) overlap.of = overlap.of.map((name) => (name === was ? now : name));
   }
 
   /** Take an axis away, with the interlocks and the goal that are of it. */
-  #remove(machine, i) {
+  function removeAxis(machine, i) {
     const [{ name }] = machine.axis.splice(i, 1);
-    if (machine.interlocks) machine.interlocks = machine.interlocks.filter((rule) => rule.axis !== name && rule[otherOf(this.#kinds, rule.kind)] !== name);
+    if (machine.interlocks) machine.interlocks = machine.interlocks.filter((rule) => rule.axis !== name && rule[otherOf(kinds, rule.kind)] !== name);
     if (!machine.interlocks?.length) delete machine.interlocks;
     if (!machine.overlap?.of) return;
     machine.overlap.of = machine.overlap.of.filter((one) => one !== name);
     if (!machine.overlap.of.length) delete machine.overlap;
   }
+
+  return { show };
 }
 
 /** The axes of the same machine: those that have the mechanism and the drive of one. */
@@ -130,39 +120,29 @@ export function changeAll(study, what, alter) {
 /** A slider of a ratio steps by equal shares. */
 const logarithm = (value) => Math.round(1000 * Math.log10(value)) / 1000;
 
-/** The mechanism of an axis and its drive: its kind, its lengths, bodies and loads, its gear and its motor. */
-class MachineForm {
-  #root;
-  #study;
-  #kinds;
-  #driving;
-  #fields;
+/** The mechanism of an axis and its drive: its kind, its lengths, bodies and loads, its gear and its motor. `mechanisms` are
+    kinds with their examples, `drive` its entries. */
+function createMachineForm(root, study, { mechanisms, drive }) {
+  const mechanismKinds = mechanisms;
+  const driving = Object.fromEntries(drive.map((one) => [one.name, one]));
+  const fields = createForm((what, alter) => changeAll(study, what, alter), () => study.rest());
 
-  /** `mechanisms` are kinds with their examples, `drive` its entries. */
-  constructor(root, study, { mechanisms, drive }) {
-    this.#root = root;
-    this.#study = study;
-    this.#kinds = mechanisms;
-    this.#driving = Object.fromEntries(drive.map((one) => [one.name, one]));
-    this.#fields = new Form((what, alter) => changeAll(study, what, alter), () => study.rest());
-  }
-
-  show(state) {
+  function show(state) {
     const axis = state.machine.axis[state.axis] ?? state.machine.axis[0];
     const kind = axis.mechanism?.kind ?? "";
     const motor = Boolean(axis.drive?.motor);
-    this.#fields.draw(this.#root, [kind, motor], axis, () => [this.#mechanism(kind), ...this.#drive(motor)]);
+    fields.draw(root, [kind, motor], axis, () => [mechanismGroup(kind), ...driveGroups(motor)]);
   }
 
-  #mechanism(kind) {
-    const kinds = Object.fromEntries([...(kind in this.#kinds ? [] : [["", "none"]]), ...Object.keys(this.#kinds).map((one) => [one, one])]);
-    const choose = choice("kind of mechanism", kinds, kind, (now) => changeAll(this.#study, "mechanism", (one, study) => this.#take(one, study, now)));
-    return group("Mechanism", choose, ...this.#fields.fields((this.#kinds[kind]?.fields ?? []).filter(({ name }) => name !== "segment"), ["mechanism"], []));
+  function mechanismGroup(kind) {
+    const kinds = Object.fromEntries([...(kind in mechanismKinds ? [] : [["", "none"]]), ...Object.keys(mechanismKinds).map((one) => [one, one])]);
+    const choose = choice("kind of mechanism", kinds, kind, (now) => changeAll(study, "mechanism", (one, study) => take(one, study, now)));
+    return group("Mechanism", choose, ...fields.fields((mechanismKinds[kind]?.fields ?? []).filter(({ name }) => name !== "segment"), ["mechanism"], []));
   }
 
   /** Another kind begins with its example and a motion within its range; what moves by which law stays. */
-  #take(axis, study, kind) {
-    const example = structuredClone(this.#kinds[kind]);
+  function take(axis, study, kind) {
+    const example = structuredClone(mechanismKinds[kind]);
     const law = axis.segment.find((one) => one.law)?.law;
     axis.mechanism = { kind, ...example.mechanism };
     for (const name of ["start", "advance", "limits", "load"]) delete axis[name];
@@ -174,143 +154,127 @@ class MachineForm {
     }
   }
 
-  #drive(motor) {
-    const { motor: { entries: motors, example }, ratio, ...gear } = this.#driving;
-    const toggle = choice("what drives", { "": "a torque at the input", motor: "a motor with a gear" }, motor ? "motor" : "", (value) => changeAll(this.#study, "drive", (one) => {
+  function driveGroups(motor) {
+    const { motor: { entries: motors, example }, ratio, ...gear } = driving;
+    const toggle = choice("what drives", { "": "a torque at the input", motor: "a motor with a gear" }, motor ? "motor" : "", (value) => changeAll(study, "drive", (one) => {
       if (value) one.drive = structuredClone({ motor: example, ratio: ratio.example });
       else delete one.drive;
     }));
     if (!motor) return [group("Driven by", toggle)];
-    const turn = (value) => value > 0 && changeAll(this.#study, "ratio", (one) => (one.drive.ratio = value));
+    const turn = (value) => value > 0 && changeAll(study, "ratio", (one) => (one.drive.ratio = value));
     const [low, high] = RATIOS.map(logarithm);
-    const slide = slider({ name: "ratio", title: "Ratio of the gear, by its logarithm", low, high, step: 0.001, changed: (value) => turn(Number((10 ** value).toPrecision(4))), rested: () => this.#study.rest() });
-    const exact = html("input", { type: "number", min: 0, step: "any", "aria-label": "Ratio of the gear", oninput: () => turn(Number(exact.value)), onchange: () => this.#study.rest() });
+    const slide = slider({ name: "ratio", title: "Ratio of the gear, by its logarithm", low, high, step: 0.001, changed: (value) => turn(Number((10 ** value).toPrecision(4))), rested: () => study.rest() });
+    const exact = html("input", { type: "number", min: 0, step: "any", "aria-label": "Ratio of the gear", oninput: () => turn(Number(exact.value)), onchange: () => study.rest() });
     slide.element.lastElementChild.replaceWith(exact);
-    this.#fields.also(({ drive }) => {
+    fields.also(({ drive }) => {
       const value = Number(drive?.ratio ?? 1);
       if (value > 0) slide.set(logarithm(value));
       if (document.activeElement !== exact || Number(exact.value) !== value) exact.value = value;
     });
-    return [group("Driven by", toggle, slide.element, ...this.#fields.fields(Object.values(gear), ["drive"], [])), group("Motor", ...this.#fields.fields(motors, ["drive", "motor"], []))];
+    return [group("Driven by", toggle, slide.element, ...fields.fields(Object.values(gear), ["drive"], [])), group("Motor", ...fields.fields(motors, ["drive", "motor"], []))];
   }
+
+  return { show };
 }
 
-/** Interlocks: which two axes, and what must not happen between them. */
-class Interlocks {
-  #root;
-  #study;
-  #kinds;
-  #form;
+/** Interlocks: which two axes, and what must not happen between them. `kinds` are the declared entries of interlocks by their
+    kinds. */
+function createInterlocks(root, study, kinds) {
+  const interlockKinds = kinds;
+  const form = createForm((what, alter) => study.change(what, ({ machine }) => alter(machine)), () => study.rest(), ({ interlocks }, [, i], before) => take(interlocks[i], before));
 
-  /** `kinds` are the declared entries of interlocks by their kinds. */
-  constructor(root, study, kinds) {
-    this.#root = root;
-    this.#study = study;
-    this.#kinds = kinds;
-    this.#form = new Form((what, alter) => study.change(what, ({ machine }) => alter(machine)), () => study.rest(), ({ interlocks }, [, i], before) => this.#take(interlocks[i], before));
-  }
-
-  show({ machine }) {
+  function show({ machine }) {
     const names = machine.axis.map(({ name }) => name);
-    this.#form.draw(this.#root, [names, machine.interlocks?.length], machine, () => [this.#cards(machine.interlocks ?? [], names)]);
+    form.draw(root, [names, machine.interlocks?.length], machine, () => [cards(machine.interlocks ?? [], names)]);
   }
 
   /** An interlock of another kind is of the same axes. */
-  #take(rule, before) {
-    for (const { name, example } of this.#kinds[rule.kind]) if (example !== undefined) rule[name] ??= structuredClone(example);
-    Object.assign(rule, { axis: before.axis, [otherOf(this.#kinds, rule.kind)]: before[otherOf(this.#kinds, before.kind)], ...(before.name && { name: before.name }) });
+  function take(rule, before) {
+    for (const { name, example } of interlockKinds[rule.kind]) if (example !== undefined) rule[name] ??= structuredClone(example);
+    Object.assign(rule, { axis: before.axis, [otherOf(interlockKinds, rule.kind)]: before[otherOf(interlockKinds, before.kind)], ...(before.name && { name: before.name }) });
   }
 
-  #change(what, alter) {
-    this.#study.change(what, ({ machine }) => {
+  function change(what, alter) {
+    study.change(what, ({ machine }) => {
       machine.interlocks ??= [];
       alter(machine.interlocks);
       if (!machine.interlocks.length) delete machine.interlocks;
     });
   }
 
-  #cards(interlocks, names) {
+  function cards(interlocks, names) {
     // an axis is one of those that there are
-    const kinds = Object.fromEntries(Object.entries(this.#kinds).map(([kind, entries]) => [kind, entries.map((one) => (one.axis ? { ...one, choices: names } : one))]));
+    const kinds = Object.fromEntries(Object.entries(interlockKinds).map(([kind, entries]) => [kind, entries.map((one) => (one.axis ? { ...one, choices: names } : one))]));
     const cards = interlocks.map((_, i) => card(i, [
-      button("×", () => this.#change(`remove interlock ${i}`, (all) => all.splice(i, 1)), { class: "close", "aria-label": `Take interlock ${i + 1} away` }),
-    ], this.#form.fields([{ kinds, name: i }], ["interlocks"])));
-    const begun = () => Object.fromEntries(this.#kinds.after.filter(({ needed, example }) => needed || example !== undefined).map(({ name, example }) => [name, example]));
-    const add = button("+ interlock", () => this.#change("add interlock", (all) => all.push({ kind: "after", ...begun(), axis: names[0], of: names[1] })), { disabled: names.length < 2 });
+      button("×", () => change(`remove interlock ${i}`, (all) => all.splice(i, 1)), { class: "close", "aria-label": `Take interlock ${i + 1} away` }),
+    ], form.fields([{ kinds, name: i }], ["interlocks"])));
+    const begun = () => Object.fromEntries(interlockKinds.after.filter(({ needed, example }) => needed || example !== undefined).map(({ name, example }) => [name, example]));
+    const add = button("+ interlock", () => change("add interlock", (all) => all.push({ kind: "after", ...begun(), axis: names[0], of: names[1] })), { disabled: names.length < 2 });
     return group("Interlocks", ...cards, add);
   }
+
+  return { show };
 }
 
-/** The programme of a cycle: speed, what is least, limits, and the segments with their laws. */
-export class Programme {
-  #root;
-  #study;
-  #held;
-  #entries;
-  #form;
+/** The programme of a cycle: speed, what is least, limits, and the segments with their laws. `held(state)` is what holds
+    speed and period; its axes, or its motion, hold the segments. `entries` are those that a cycle and its segments declare. */
+export function createProgramme(root, study, held, entries) {
+  const form = createForm(change, () => study.rest(), (tables, path, before) => keep(path.reduce((part, name) => part[name], tables), before));
 
-  /** `held(state)` is what holds speed and period; its axes, or its motion, hold the segments. `entries` are those that
-      a cycle and its segments declare. */
-  constructor(root, study, held, entries) {
-    this.#root = root;
-    this.#study = study;
-    this.#held = held;
-    this.#entries = entries;
-    this.#form = new Form((what, alter) => this.#change(what, alter), () => study.rest(), (tables, path, before) => this.#keep(path.reduce((part, name) => part[name], tables), before));
-  }
-
-  show(state) {
-    const tables = this.#tables(state);
+  function show(state) {
+    const tables = tablesOf(state);
     const { cycle, axis } = tables;
-    if (axis) this.#form.draw(this.#root, [state.axis, axis.name, axis.segment?.length, "period" in cycle, "mechanism" in axis], tables, () => this.#fields(cycle, axis));
+    if (axis) form.draw(root, [state.axis, axis.name, axis.segment?.length, "period" in cycle, "mechanism" in axis], tables, () => fields(cycle, axis));
   }
 
-  #tables(state) {
-    const cycle = this.#held(state);
+  function tablesOf(state) {
+    const cycle = held(state);
     return { cycle, axis: cycle.motion ?? cycle.axis?.[state.axis] ?? cycle.axis?.[0] };
   }
 
   /** Change the tables of the cycle and of its axis that is shown. */
-  #change(what, alter) {
-    this.#study.change(what, (state) => alter(this.#tables(state)));
+  function change(what, alter) {
+    study.change(what, (state) => alter(tablesOf(state)));
   }
 
-  #keep(segment, before) {
-    const declared = this.#entries.segments[segment.kind].map(({ name }) => name);
+  function keep(segment, before) {
+    const declared = entries.segments[segment.kind].map(({ name }) => name);
     for (const name of KEPT.filter((one) => declared.includes(one))) {
       const value = before[name] ?? segment[name] ?? (name === "by" ? "10 mm" : undefined);
       if (value !== undefined) segment[name] = value;
     }
   }
 
-  #fields(cycle, axis) {
+  function fields(cycle, axis) {
     const timing = "period" in cycle ? "period" : "speed";
-    const given = choice("timing", Object.keys(SPEEDS), timing, (now) => this.#change("timing", ({ cycle: study }) => {
+    const given = choice("timing", Object.keys(SPEEDS), timing, (now) => change("timing", ({ cycle: study }) => {
       const value = study[timing];
       delete study[timing];
       study[now] = turned(value, now);
     }));
     const head = [
       entry("given by", given),
-      this.#form.field({ path: ["cycle", timing], label: timing, placeholder: SPEEDS[timing] }, "timing value"),
-      this.#form.field({ path: ["axis", "minimise"], label: "least", choices: this.#entries.objectives, default: "acceleration" }, "minimise"),
+      form.field({ path: ["cycle", timing], label: timing, placeholder: SPEEDS[timing] }, "timing value"),
+      form.field({ path: ["axis", "minimise"], label: "least", choices: entries.objectives, default: "acceleration" }, "minimise"),
     ];
-    const limits = this.#entries.limits[axis.mechanism ? "machine" : "motion"].map((one) => this.#form.field({ ...one, path: ["axis", "limits", one.name] }, `limit ${one.name}`));
-    const segments = (axis.segment ?? []).map((_, i, { length }) => this.#segment(i, length));
-    const add = button("+ segment", () => this.#change("add segment", ({ axis: { segment } }) => segment.push({ ...FRESH })));
+    const limits = entries.limits[axis.mechanism ? "machine" : "motion"].map((one) => form.field({ ...one, path: ["axis", "limits", one.name] }, `limit ${one.name}`));
+    const segments = (axis.segment ?? []).map((_, i, { length }) => segment(i, length));
+    const add = button("+ segment", () => change("add segment", ({ axis: { segment } }) => segment.push({ ...FRESH })));
     return [group("Cycle", ...head), group("At most", ...limits), group("Segments", ...segments, add)];
   }
 
-  #segment(i, count) {
-    const act = (text, about, alter) => button(text, () => this.#change(`${about} ${i}`, ({ axis }) => alter(axis.segment)), { class: "close", "aria-label": `${about} segment ${i + 1}`, title: `${about} this segment` });
+  function segment(i, count) {
+    const act = (text, about, alter) => button(text, () => change(`${about} ${i}`, ({ axis }) => alter(axis.segment)), { class: "close", "aria-label": `${about} segment ${i + 1}`, title: `${about} this segment` });
     const swap = (all, one, other) => ([all[one], all[other]] = [all[other], all[one]]);
     return card(i, [
       act("↑", "Move up", (all) => i > 0 && swap(all, i - 1, i)),
       act("↓", "Move down", (all) => i < count - 1 && swap(all, i, i + 1)),
       act("+", "Insert a segment after", (all) => all.splice(i + 1, 0, { ...FRESH })),
       act("×", "Take away", (all) => count > 1 && all.splice(i, 1)),
-    ], this.#form.fields([{ kinds: this.#entries.segments, name: i }], ["axis", "segment"]));
+    ], form.fields([{ kinds: entries.segments, name: i }], ["axis", "segment"]));
   }
+
+  return { show };
 }
 
 /** Let segment i end at an angle where `shown` says that it is; a duration in time stays one. */

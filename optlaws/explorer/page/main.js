@@ -1,15 +1,15 @@
 // The page: state in, views out.
 
-import { Details, begun, keep } from "./document.js";
-import { Exporting } from "./exporting.js";
-import { Opening, fileOf } from "./files.js";
+import { begun, createDetails, keep } from "./document.js";
+import { createExporting } from "./exporting.js";
+import { createOpening, fileOf } from "./files.js";
 import { during, observe, reached } from "./latest.js";
 import { tabs } from "./layout.js";
-import { MachineForms } from "./machine_forms.js";
-import { Study, read } from "./state.js";
-import { html } from "./svg.js";
-import { restore } from "./theme.js";
-import { Tools } from "./tools.js";
+import { createMachineForms } from "./machine_forms.js";
+import { createStudy, read } from "./state.js";
+import { restore } from "./store.js";
+import { button, html } from "./svg.js";
+import { createTools } from "./tools.js";
 import { VIEWS } from "./views.js";
 
 restore();
@@ -63,7 +63,6 @@ function computing(slow) {
     beside the tools: what comes and goes amid a drag must not move the page. */
 function work({ lost, slow, late }) {
   const say = (words, ...buttons) => fill("work", html("span", {}, ...words), ...buttons);
-  const button = (text, act) => html("button", { type: "button", text, onclick: act });
   clearInterval(ticking);
   if (lost) say(["The server does not answer. This page keeps the study, and goes on as soon as `optlaws explore` runs again."]);
   else if (slow.length) say(["Computing …", ...computing(slow)], button("Stop", () => slow.forEach((one) => one.stop())));
@@ -100,7 +99,7 @@ async function open() {
   const views = {};
   const roots = Object.fromEntries(Object.keys(VIEWS).map((name) => [name, html("main", { id: `${name}-view`, class: "view", hidden: true })]));
   document.getElementById("notice").after(...Object.values(roots));
-  const study = new Study(first, render, kept, examples);
+  const study = createStudy(first, render, kept, examples);
   /** A part of the study that is not there yet begins with an example for the view that shows it. */
   const begin = (state, view) => {
     const { part } = VIEWS[view];
@@ -113,7 +112,7 @@ async function open() {
     begin(next, key);
   }));
   const shown = () => views[named(study.state)];
-  const exporting = new Exporting(study, formats, (now) => (shown()?.moves ? { view: named(now), request: shown().request(now) } : null));
+  const exporting = createExporting(study, formats, (now) => (shown()?.moves ? { view: named(now), request: shown().request(now) } : null));
   const opened = (next) => {
     study.rest();
     study.change("open", (state) => {
@@ -122,19 +121,19 @@ async function open() {
     });
     study.rest();
   };
-  const opening = new Opening(opened, notice, shown, (name, text) => during(show(name, text)).catch((error) => notice(error.message)));
-  const details = new Details(study);
-  const forms = new MachineForms(study, start);
-  const tools = new Tools(document.getElementById("tools"), study, notice, { exporting, opening, details, shown });
+  const opening = createOpening(opened, notice, shown, (name, text) => during(show(name, text)).catch((error) => notice(error.message)));
+  const details = createDetails(study);
+  const forms = createMachineForms(study, start);
+  const tools = createTools(document.getElementById("tools"), study, notice, { exporting, opening, details, shown });
 
   /** A view is loaded when it is first shown; one that fails to load is loaded when it is next shown. */
   async function load(name) {
     views[name] = null;
-    const { View } = await reached(VIEWS[name].load).catch((error) => {
+    const { createView } = await reached(VIEWS[name].load).catch((error) => {
       delete views[name];
       throw error;
     });
-    views[name] = new View(roots[name], study, start, painted);
+    views[name] = createView(roots[name], study, start, painted);
     render(study.state); // its questions begin before this work ends
   }
 
@@ -155,7 +154,7 @@ async function open() {
       exporting.show(now);
     } else if (view === undefined) during(load(name)).catch((error) => notice(error.message));
     document.getElementById("first").hidden = study.canUndo || location.hash.length > 1;
-    tools.show(study, Boolean(view?.moves));
+    tools.show(Boolean(view?.moves));
     details.show(now);
   }
 
@@ -175,7 +174,7 @@ async function open() {
   }
 
   for (const [view, text] of Object.entries(MACHINES)) {
-    document.getElementById("first").append(html("button", { type: "button", text, onclick: () => study.change("begin", (next) => Object.assign(next, { view, machine: structuredClone(examples[view]) })) }));
+    document.getElementById("first").append(button(text, () => study.change("begin", (next) => Object.assign(next, { view, machine: structuredClone(examples[view]) }))));
   }
   observe(work);
   addEventListener("prove", () => during(prove()).catch((error) => notice(error.message)));

@@ -8,191 +8,383 @@
 //
 // Wheel, drag, + and - zoom and move; arrow keys move the cursor from place to place, Page keys from peak to peak.
 
-import { Cursor } from "./cursor.js";
-import { FOOT, Panel } from "./panel.js";
-import { Span } from "./span.js";
-import { html, sized } from "./svg.js";
-import { number, panelsInUnits } from "./units.js";
+import { createRoom, frame, label, scale, ticks, ticksIn } from "./chart.js";
+import { button, draggable, html, path, setAttributes, sized, svg } from "./svg.js";
+import { number, panelsInUnits, variableOf } from "./units.js";
+
+/** A place along the variable of pictures that are read together: it follows the pointer, and stays where it was put. */
+export function createCursor() {
+  const watchers = [];
+  let placed = null;
+  let pointed = null;
+  const here = () => pointed ?? placed;
+
+  function tell(isPlaced) {
+    for (const seen of watchers) seen(here(), isPlaced);
+  }
+
+  /** Put it somewhere: there it stays. */
+  function place(at) {
+    [placed, pointed] = [at, null];
+    tell(true);
+  }
+
+  /** Follow the pointer; null where the pointer has left. */
+  function point(at) {
+    pointed = at;
+    tell(false);
+  }
+
+  // `seen(at, placed)` is called whenever the cursor moves; `at` is null where there is none
+  return { get at() { return here(); }, watch: (seen) => watchers.push(seen), place, point };
+}
+
+const FINEST = 1e-4; // of a range
+
+/** The part of a range that is in sight: zoomed about a place, moved, whole again. */
+function createSpan() {
+  let whole = [0, 1];
+  let shown = [0, 1];
+  const reset = () => (shown = [...whole]);
+  const move = (by) => show(shown[0] + by, shown[1] + by);
+
+  /** Another range is shown whole; the same one as it was. */
+  function of(range) {
+    if (range[0] === whole[0] && range[1] === whole[1]) return;
+    whole = [...range];
+    reset();
+  }
+
+  /** Show so many times as much, with a place where it is. */
+  function zoom(about, times) {
+    const [from, to] = shown;
+    const factor = Math.max(times, (FINEST * (whole[1] - whole[0])) / (to - from));
+    show(about + factor * (from - about), about + factor * (to - about));
+  }
+
+  /** Bring a place into sight. */
+  function reach(at) {
+    const [from, to] = shown;
+    if (at < from || at > to) move(at - (from + to) / 2);
+  }
+
+  function show(from, to) {
+    const [low, high] = whole;
+    const size = Math.min(to - from, high - low);
+    const start = Math.min(Math.max(from, low), high - size);
+    shown = [start, start + size];
+  }
+
+  return { get shown() { return shown; }, get zoomed() { return shown[0] > whole[0] || shown[1] < whole[1]; }, of, reset, zoom, move, reach, show };
+}
+
+const TOUCHING = 6; // pixels
+
+/** Marks of peaks at [x, y] in pixels; where there is no room for a value, its mark alone is drawn. */
+function peakMarks(peaks, place, box, law) {
+  const room = createRoom(box, peaks.map(place));
+  const circles = [];
+  return peaks.flatMap((peak) => {
+    const at = place(peak);
+    if (at[0] < box.left - 0.5 || at[0] > box.right + 0.5 || circles.some(([x, y]) => Math.hypot(x - at[0], y - at[1]) < TOUCHING)) return [];
+    circles.push(at);
+    const text = peak.text ?? number(peak.value);
+    return [svg("g", { class: `peak law-${law}` }, svg("circle", { cx: at[0].toFixed(1), cy: at[1].toFixed(1), r: 3 }), room(at, text, { above: peak.value > 0 }) ?? svg("title", { text }))];
+  });
+}
+
+const BOX = { left: 64, right: 14, top: 20, bottom: 6 };
+const FOOT = 34;
+const ROOM = 17; // pixels above and below the curve for what is written at its peaks
+const NEAR = 1.6; // limits farther out than this many peaks are out of sight
+const WRITTEN = 6.6;
+const LAWS = "ABCD";
+
+/** The least and the greatest value of a limit; null is none, and a value alone is that of both sides. */
+const edges = ({ value, least = -value }) => [least ?? -Infinity, value ?? Infinity];
+const titled = ({ name, unit }) => (unit ? `${name}, ${unit}` : name);
+
+/** One quantity over the variable: its curves, its limits, its peaks, and what a cursor reads of it. It is told the answer, the
+    span of the variable in sight, the law that is active, where limits are broken, and a name for its parts. */
+function createPanel(panel, { answer, span, zoomed, active, beyond, name, segments = [] }, { width, height, last }) {
+  const reading = svg("g", { class: "reading", "aria-hidden": "true" });
+  const series = seriesOf(panel);
+  const own = series.find(({ law }) => law === active) ?? series[0];
+  const places = own?.at ?? [];
+  const { limits = [], peaks = [] } = panel;
+  const box = { left: BOX.left, right: width - BOX.right, top: BOX.top, bottom: height - BOX.bottom };
+  const x = scale(span, [box.left, box.right]);
+  const known = series.flatMap(({ at, values }) => values.filter((value, i) => value !== null && at[i] >= span[0] && at[i] <= span[1]));
+  const [low, high] = reach();
+  const room = ((high - low || 1) * ROOM) / (box.bottom - box.top - 2 * ROOM);
+  const y = scale([low < 0 || zoomed ? low - room : low, high + room], [box.bottom, box.top]);
+  const tall = height + (last ? FOOT : 0);
+  const element = svg("svg", { class: "curve", width, height: tall, viewBox: `0 0 ${width} ${tall}`, role: "img", "aria-label": told(panel, answer) }, ...parts(), reading);
+
+  function parts() {
+    const xs = !zoomed && answer.ticks ? answer.ticks : ticksIn(answer.unit, span, 8);
+    const ys = ticks(low, high, Math.min(4, Math.max(2, Math.floor((box.bottom - box.top) / 18))));
+    const broken = beyond.flatMap(([from, to]) => limits.map((limit) => ({ ...limit, from: Math.max(from, limit.from), to: Math.min(to, limit.to) })));
+    const over = zonesOf(broken.filter(({ from, to }) => from < to));
+    const joints = segments.map(({ at: [from] }) => x(from)).filter((at) => at > box.left).map((at) => svg("line", { class: "joint", x1: at, x2: at, y1: box.top, y2: box.bottom }));
+    const drawn = series.map(({ at, values, law, dots, name: title }) => {
+      const line = at.map((one, i) => (values[i] === null ? null : [x(one), y(values[i])]));
+      return { law, title, dots, d: dots ? line.filter(Boolean).map((place) => `${path([place])}h0`).join("") : path(line) };
+    });
+    // the first law lies above the others, the active one above all
+    const order = drawn.toReversed().sort((one, other) => (one.law === own.law) - (other.law === own.law));
+    const lines = order.map(({ law, d, dots, title }) => svg("path", { class: `line law-${law}${law === own.law ? " active" : ""}${dots ? " dots" : ""}`, d }, title ? svg("title", { text: title }) : null));
+    if (over.length && drawn.length) lines.push(svg("path", { class: "beyond", d: drawn[0].d, "clip-path": `url(#beyond-${name})` }));
+    return [
+      frame(box, x, y, { xs, ys, xlabels: last, xname: last ? variableOf(answer) : "", unit: answer.unit }),
+      svg("text", { class: "title", x: box.left, y: 13, text: titled(panel) }),
+      panel.note ? svg("text", { class: "limit-name", x: box.left + WRITTEN * (titled(panel).length + 2), y: 13, text: panel.note }) : null,
+      svg("clipPath", { id: `inside-${name}` }, svg("rect", { x: box.left, y: box.top - 8, width: box.right - box.left, height: box.bottom - box.top + 14 })),
+      svg("clipPath", { id: `beyond-${name}` }, ...over),
+      svg("g", { "clip-path": `url(#inside-${name})` }, ...zonesOf(limits), ...joints, ...lines),
+      ...peakMarks(peaks, (peak) => [x(peak.at), y(peak.value)], box, own?.law ?? 0),
+    ];
+  }
+
+  /** The value of the variable at a place of the pointer. */
+  const at = (clientX) => x.back(clientX - element.getBoundingClientRect().left);
+
+  /** The place of the active curve nearest to a value of the variable: there the law itself was computed. */
+  const nearest = (value) => places.reduce((best, one) => (Math.abs(one - value) < Math.abs(best - value) ? one : best), places[0] ?? value);
+
+  /** A line at the cursor, a dot on each curve, and their values; returns the value of the active one as text. */
+  function read(value) {
+    reading.replaceChildren();
+    const here = value === null ? NaN : x(value);
+    if (!(here >= box.left - 0.5 && here <= box.right + 0.5)) return "";
+    const found = series.filter(({ law }) => typeof law === "number").map((one) => ({ ...one, ...between(one, value) })).filter((one) => one.reading !== null);
+    reading.append(svg("line", { class: "cursor", x1: here.toFixed(1), x2: here.toFixed(1), y1: box.top, y2: box.bottom }));
+    for (const one of found) reading.append(svg("circle", { class: `point law-${one.law}`, cx: here.toFixed(1), cy: y(one.reading).toFixed(1), r: 3 }));
+    const first = found.find((one) => one.law === own.law);
+    const letters = (box.right - box.left) / WRITTEN - titled(panel).length - 2;
+    const unit = panel.unit ? ` ${panel.unit}` : "";
+    const all = found.map((one) => ({ ...one, text: found.length > 1 ? `${LAWS[one.law] ?? ""} ${one.text}` : `${one.text}${unit}` }));
+    const fits = all.reduce((sum, { text }) => sum + text.length + 2, 0) < letters;
+    const spans = (fits ? all : first ? [first] : []).map((one, i) => svg("tspan", { class: found.length > 1 ? `law-${one.law}` : "", text: `${i ? "  " : ""}${one.text}` }));
+    reading.append(svg("text", { x: box.right, y: 13, "text-anchor": "end" }, ...spans));
+    return first ? `${panel.symbol ?? panel.name} ${first.text}${unit}` : "";
+  }
+
+  /** The least and the greatest value in sight; of the whole also 0, limits near what is used of them on their side, and what the panel asks for. */
+  function reach() {
+    if (zoomed && known.length) return [Math.min(...known), Math.max(...known)];
+    const side = (sign, end) => {
+      const used = Math.max(0, ...known.map((value) => sign * value));
+      const near = limits.map((limit) => sign * edges(limit)[end]).filter((value) => value <= NEAR * used);
+      return sign * Math.max(used, ...near, ...(panel.span ?? []).map((value) => sign * value));
+    };
+    return [side(-1, 0), side(1, 1)];
+  }
+
+  /** Where the motion must not go: above and below the limits of each segment. */
+  function zonesOf(all) {
+    const zone = ({ from, to }, top, bottom) => (bottom > top ? [svg("rect", { class: "zone", x: x(from), width: x(to) - x(from), y: top, height: bottom - top })] : []);
+    return all.flatMap((limit) => {
+      const [least, value] = edges(limit);
+      return [...zone(limit, box.top, Math.max(box.top, y(value))), ...zone(limit, Math.min(box.bottom, y(least)), box.bottom)];
+    });
+  }
+
+  return { at, nearest, places, peaks: peaks.map((peak) => peak.at), read, element };
+}
+
+function seriesOf({ series }) {
+  return series.map((one) => ({ law: 0, ...one }));
+}
+
+/** The value at a place, exact where the curve was computed there, else of the line between its neighbours. */
+function between({ at, values }, place) {
+  const i = at.findIndex((one) => one >= place - 1e-9);
+  if (i < 0) return { reading: null };
+  if (at[i] <= place + 1e-9) return values[i] === null ? { reading: null } : { reading: values[i], text: label(values[i]) };
+  if (i === 0 || values[i] === null || values[i - 1] === null) return { reading: null };
+  const part = (place - at[i - 1]) / (at[i] - at[i - 1]);
+  const reading = values[i - 1] + part * (values[i] - values[i - 1]);
+  return { reading, text: `≈ ${label(Number(reading.toPrecision(3)))}` };
+}
+
+/** A picture in words: what it shows, its peaks with their places, and its limits. */
+function told(panel, answer) {
+  const series = seriesOf(panel);
+  const peaks = (panel.peaks ?? []).map((peak) => `${peak.text ?? number(peak.value)} at ${number(peak.at, answer.unit)}`);
+  const values = peaks.length ? [] : series.flatMap((one) => one.values).filter((value) => value !== null);
+  // what is drawn is no value: between two of its places the curve may be higher
+  const about = (value) => label(Number(value.toPrecision(2)));
+  const drawn = values.length ? [`drawn from about ${about(Math.min(...values))} to about ${about(Math.max(...values))}`] : [];
+  const range = panel.ends ? [`from ${panel.ends.map((end) => number(end)).join(" to ")}`] : drawn;
+  const limits = [...new Set((panel.limits ?? []).map((limit) => edges(limit).filter(Number.isFinite).map(label).join(" to ")))].filter(Boolean);
+  const words = [...peaks, ...range, ...(limits.length ? [`within ${limits.join("; ")}`] : [])];
+  if (!series.length) return `${titled(panel)}: nothing to draw`;
+  return `${titled(panel)} over ${variableOf(answer)}${words.length ? `: ${words.join(", ")}` : ""}`;
+}
 
 const TURN = [0, 360];
 const LEAST = 84;
 const ZOOM = 1.5;
 const CLICK = 4; // pixels within which a press is no drag
 
-export class Panels {
-  #root;
-  #size;
-  #drawings = html("div", { class: "drawings" });
-  #dial = html("input", { type: "range", class: "dial", "aria-label": "Cursor along the curves" });
-  #value = html("output", { class: "cursor-value" });
-  #buttons = {};
-  #shown = null;
-  #panels = [];
-  #span = new Span();
-  #drag = null;
-  #strip;
+/** `strip` draws the segments above the curves: {element, show(answer, span, edges)}. */
+export function createPanels(root, { cursor = createCursor(), strip = null } = {}) {
+  const drawings = html("div", { class: "drawings" });
+  const dial = html("input", { type: "range", class: "dial", "aria-label": "Cursor along the curves", step: "any", oninput: () => place(Number(dial.value)) });
+  const value = html("output", { class: "cursor-value" });
+  const buttons = {};
+  let shown = null;
+  let drawnPanels = [];
+  const range = createSpan();
+  let drag = null;
+  root.classList.add("panels");
+  root.tabIndex = -1;
+  const tool = (name, text, title, act) => (buttons[name] = button(text, act, { title, "aria-label": title }));
+  const tools = html(
+    "div", { class: "panel-tools" }, dial, value,
+    tool("out", "−", "Show more of the curves", () => zoom(ZOOM)),
+    tool("in", "+", "Show less of the curves, larger", () => zoom(1 / ZOOM)),
+    tool("whole", "whole", "Show the whole curves", reset),
+  );
+  root.replaceChildren(...(strip ? [strip.element] : []), drawings, tools);
+  cursor.watch(read);
+  root.addEventListener("keydown", key);
+  const acts = { pointermove: point, pointerleave: () => cursor.point(null), pointerdown: grasp, pointerup: release, pointercancel: () => (drag = null), dblclick: reset };
+  for (const [kind, act] of Object.entries(acts)) drawings.addEventListener(kind, act);
+  drawings.addEventListener("wheel", wheel, { passive: false });
+  const size = sized(drawings, draw);
 
-  /** `strip` draws the segments above the curves: {element, show(answer, span, edges)}. */
-  constructor(root, { cursor = new Cursor(), strip = null } = {}) {
-    this.#root = root;
-    this.#strip = strip;
-    this.cursor = cursor;
-    root.classList.add("panels");
-    root.tabIndex = -1;
-    const button = (name, text, title, act) => (this.#buttons[name] = html("button", { type: "button", text, title, "aria-label": title, onclick: act }));
-    const tools = html(
-      "div", { class: "panel-tools" }, this.#dial, this.#value,
-      button("out", "−", "Show more of the curves", () => this.#zoom(ZOOM)),
-      button("in", "+", "Show less of the curves, larger", () => this.#zoom(1 / ZOOM)),
-      button("whole", "whole", "Show the whole curves", () => this.#reset()),
-    );
-    root.replaceChildren(...(strip ? [strip.element] : []), this.#drawings, tools);
-    cursor.watch((at) => this.#read(at));
-    this.#dial.addEventListener("input", () => this.#place(Number(this.#dial.value)));
-    root.addEventListener("keydown", (event) => this.#key(event));
-    const listen = (kind, act) => this.#drawings.addEventListener(kind, (event) => act.call(this, event));
-    listen("pointermove", this.#point);
-    listen("pointerleave", () => this.cursor.point(null));
-    listen("pointerdown", this.#grasp);
-    listen("pointerup", this.#release);
-    listen("pointercancel", () => (this.#drag = null));
-    listen("dblclick", this.#reset);
-    this.#drawings.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
-    this.#size = sized(this.#drawings, () => this.#draw());
-  }
-
-  show(answer) {
-    this.#shown = panelsInUnits(answer);
-    this.#draw();
+  function show(answer) {
+    shown = panelsInUnits(answer);
+    draw();
   }
 
   /** What the cursor reads: the name, the unit and the value of each panel. */
-  get readings() {
-    const at = this.cursor.at;
-    return at === null ? [] : this.#panels.map((panel) => panel.read(at)).filter(Boolean);
+  function readings() {
+    const at = cursor.at;
+    return at === null ? [] : drawnPanels.map((panel) => panel.read(at)).filter(Boolean);
   }
 
   /** Show a part of the range. */
-  look([from, to]) {
-    this.#span.to(from, to);
-    this.#draw();
+  function look([from, to]) {
+    range.show(from, to);
+    draw();
   }
 
-  #draw() {
-    const [width, room] = this.#size();
-    if (!this.#shown || width < 100) return;
-    const nothing = this.#shown.refused;
-    this.#root.classList.toggle("empty", Boolean(nothing));
-    this.#panels = [];
+  function draw() {
+    const [width, room] = size();
+    if (!shown || width < 100) return;
+    const nothing = shown.refused;
+    root.classList.toggle("empty", Boolean(nothing));
+    drawnPanels = [];
     if (nothing) {
-      this.#drawings.replaceChildren(html("div", { class: "nothing" }, html("strong", { text: nothing.word }), html("span", { text: "there is nothing to draw" })));
+      drawings.replaceChildren(html("div", { class: "nothing" }, html("strong", { text: nothing.word }), html("span", { text: "there is nothing to draw" })));
       return;
     }
-    const answer = { range: TURN, ...this.#shown };
+    const answer = { range: TURN, ...shown };
     const { panels, segments } = answer;
-    this.#span.of(answer.range);
-    const { shown: span, zoomed } = this.#span;
+    range.of(answer.range);
+    const { shown: span, zoomed } = range;
     const height = Math.max(LEAST, Math.floor((room - FOOT) / panels.length));
-    this.#panels = panels.map((panel, i) => new Panel(
+    drawnPanels = panels.map((panel, i) => createPanel(
       panel,
-      { answer, span, zoomed, segments, active: answer.active ?? 0, name: `${this.#root.id}-${i}`, beyond: beyond(panel, segments ?? [], i) },
+      { answer, span, zoomed, segments, active: answer.active ?? 0, name: `${root.id}-${i}`, beyond: beyond(panel, segments ?? [], i) },
       { width, height, last: i === panels.length - 1 },
     ));
-    this.#drawings.replaceChildren(...this.#panels.map(({ element }) => element));
+    drawings.replaceChildren(...drawnPanels.map(({ element }) => element));
     // what is scrolled is reached by keys too
-    if (height * panels.length + FOOT > room) this.#drawings.tabIndex = 0;
-    else this.#drawings.removeAttribute("tabindex");
-    this.#strip?.show(answer, span);
-    this.#dial.min = span[0];
-    this.#dial.max = span[1];
-    this.#dial.step = "any";
-    this.#root.classList.toggle("zoomed", zoomed);
-    this.#buttons.whole.disabled = this.#buttons.out.disabled = !zoomed;
-    this.#read(this.cursor.at);
+    if (height * panels.length + FOOT > room) drawings.tabIndex = 0;
+    else drawings.removeAttribute("tabindex");
+    strip?.show(answer, span);
+    [dial.min, dial.max] = span;
+    root.classList.toggle("zoomed", zoomed);
+    buttons.whole.disabled = buttons.out.disabled = !zoomed;
+    read(cursor.at);
   }
 
-  #read(at) {
-    if (!this.#panels.length) return;
-    const texts = this.#panels.map((panel) => panel.read(at)).filter(Boolean);
-    const here = at === null ? "" : `${this.#shown.symbol ? `${this.#shown.symbol} = ` : ""}${number(at, this.#shown.unit)}`;
-    this.#value.textContent = here;
-    this.#dial.value = at ?? this.#span.shown[0];
-    this.#dial.setAttribute("aria-valuetext", at === null ? "not placed" : `${here}: ${texts.join(", ")}`);
+  function read(at) {
+    if (!drawnPanels.length) return;
+    const texts = drawnPanels.map((panel) => panel.read(at)).filter(Boolean);
+    const here = at === null ? "" : `${shown.symbol ? `${shown.symbol} = ` : ""}${number(at, shown.unit)}`;
+    value.textContent = here;
+    dial.value = at ?? range.shown[0];
+    dial.setAttribute("aria-valuetext", at === null ? "not placed" : `${here}: ${texts.join(", ")}`);
   }
 
   /** Put the cursor at the place nearest to a value. */
-  #place(value) {
-    const panel = this.#panels[0];
-    if (panel) this.cursor.place(panel.nearest(value));
+  function place(value) {
+    const panel = drawnPanels[0];
+    if (panel) cursor.place(panel.nearest(value));
   }
 
-  #under(event) {
-    return this.#panels.find(({ element }) => element.contains(event.target)) ?? (this.#drag && this.#panels[0]);
+  function under(event) {
+    return drawnPanels.find(({ element }) => element.contains(event.target)) ?? (drag && drawnPanels[0]);
   }
 
-  #within(value) {
-    const [from, to] = this.#span.shown;
+  function within(value) {
+    const [from, to] = range.shown;
     return Math.min(to, Math.max(from, value));
   }
 
-  #point(event) {
-    const panel = this.#under(event);
+  function point(event) {
+    const panel = under(event);
     if (!panel) return;
-    if (this.#drag && this.#span.zoomed && Math.abs(event.clientX - this.#drag.began) >= CLICK) {
-      this.#drawings.setPointerCapture(event.pointerId);
-      this.#span.move(panel.at(this.#drag.from) - panel.at(event.clientX));
-      this.#drag.from = event.clientX;
-      this.#drag.moved = true;
-      this.#draw();
-    } else this.cursor.point(panel.nearest(this.#within(panel.at(event.clientX))));
+    if (drag && range.zoomed && Math.abs(event.clientX - drag.began) >= CLICK) {
+      drawings.setPointerCapture(event.pointerId);
+      range.move(panel.at(drag.from) - panel.at(event.clientX));
+      drag.from = event.clientX;
+      drag.moved = true;
+      draw();
+    } else cursor.point(panel.nearest(within(panel.at(event.clientX))));
   }
 
-  #grasp(event) {
-    if (event.button === 0 && this.#panels.length) this.#drag = { began: event.clientX, from: event.clientX, moved: false };
+  function grasp(event) {
+    if (event.button === 0 && drawnPanels.length) drag = { began: event.clientX, from: event.clientX, moved: false };
   }
 
-  #release(event) {
-    const panel = this.#under(event);
-    const click = this.#drag && !this.#drag.moved;
-    this.#drag = null;
-    if (click && panel) this.cursor.place(panel.nearest(this.#within(panel.at(event.clientX))));
+  function release(event) {
+    const panel = under(event);
+    const click = drag && !drag.moved;
+    drag = null;
+    if (click && panel) cursor.place(panel.nearest(within(panel.at(event.clientX))));
   }
 
-  #wheel(event) {
-    const panel = this.#under(event);
+  function wheel(event) {
+    const panel = under(event);
     // at the whole range the wheel scrolls the page on
-    if (!panel || (event.deltaY > 0 && !this.#span.zoomed)) return;
+    if (!panel || (event.deltaY > 0 && !range.zoomed)) return;
     event.preventDefault();
-    if (event.shiftKey) this.#span.move((Math.sign(event.deltaY || event.deltaX) * (this.#span.shown[1] - this.#span.shown[0])) / 8);
-    else this.#span.zoom(this.#within(panel.at(event.clientX)), ZOOM ** Math.sign(event.deltaY));
-    this.#draw();
+    if (event.shiftKey) range.move((Math.sign(event.deltaY || event.deltaX) * (range.shown[1] - range.shown[0])) / 8);
+    else range.zoom(within(panel.at(event.clientX)), ZOOM ** Math.sign(event.deltaY));
+    draw();
   }
 
-  #zoom(times) {
-    const [from, to] = this.#span.shown;
-    const at = this.cursor.at;
-    this.#span.zoom(at !== null && at >= from && at <= to ? at : (from + to) / 2, times);
-    this.#draw();
+  function zoom(times) {
+    const [from, to] = range.shown;
+    const at = cursor.at;
+    range.zoom(at !== null && at >= from && at <= to ? at : (from + to) / 2, times);
+    draw();
   }
 
-  #reset() {
-    this.#span.reset();
-    this.#draw();
+  function reset() {
+    range.reset();
+    draw();
   }
 
-  #key(event) {
-    const [from, to] = this.#span.shown;
-    const acts = { "+": () => this.#zoom(1 / ZOOM), "-": () => this.#zoom(ZOOM), 0: () => this.#reset(), Escape: () => this.cursor.place(null) };
+  function key(event) {
+    const [from, to] = range.shown;
+    const acts = { "+": () => zoom(1 / ZOOM), "-": () => zoom(ZOOM), 0: reset, Escape: () => cursor.place(null) };
     const moves = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
-    const onDial = event.target === this.#dial;
+    const onDial = event.target === dial;
     if (event.ctrlKey || event.metaKey || event.altKey || (!onDial && !Object.hasOwn(acts, event.key))) return;
-    const panel = this.#panels[0];
-    const at = this.cursor.at ?? from;
+    const panel = drawnPanels[0];
+    const at = cursor.at ?? from;
     const go = (value) => {
       if (value === undefined) return;
-      this.#span.reach(value);
-      this.#draw();
-      this.cursor.place(value);
+      range.reach(value);
+      draw();
+      cursor.place(value);
     };
     const next = (places, by) => {
       const sorted = [...new Set(places)].sort((one, other) => one - other);
@@ -201,15 +393,112 @@ export class Panels {
     if (Object.hasOwn(acts, event.key)) acts[event.key]();
     else if (!panel) return;
     else if (event.key in moves) go(next(panel.places, moves[event.key] * (event.shiftKey ? 10 : 1)));
-    else if (event.key === "PageUp" || event.key === "PageDown") go(next(this.#panels.flatMap(({ peaks }) => peaks), event.key === "PageUp" ? 1 : -1));
+    else if (event.key === "PageUp" || event.key === "PageDown") go(next(drawnPanels.flatMap(({ peaks }) => peaks), event.key === "PageUp" ? 1 : -1));
     else if (event.key === "Home" || event.key === "End") go(event.key === "Home" ? from : to);
     else return;
     event.preventDefault();
   }
+
+  return { show, get readings() { return readings(); }, look, cursor };
 }
 
 /** Where a panel is beyond its limits, as [from, to]: all of it, or the segments that break their own. */
 function beyond(panel, segments, i) {
   if (panel.beyond !== undefined) return panel.beyond ? [[-Infinity, Infinity]] : [];
   return segments.filter(({ peaks }) => peaks?.[i - 1]?.beyond).map(({ at }) => at);
+}
+
+const NARROW = 7; // pixels a letter of a name takes
+
+/** `moved(i, at)` asks for the end of segment i at a place, where ends can be moved; `chosen(i)` is a click on a bar. */
+export function createStrip({ moved = null, rested = () => {}, chosen, step: stepSize = 1 }) {
+  const element = html("div", { class: "strip", role: "group", "aria-label": "Segments of the motion" });
+  let joints = [];
+  let toX = null;
+  let last = null;
+  let shown = null;
+  const size = sized(element, () => shown && show(...shown));
+
+  function show({ segments = [], range, unit }, span) {
+    shown = [{ segments, range, unit }, span];
+    const [width] = size();
+    toX = scale(span, [BOX.left, width - BOX.right]);
+    const x = (value) => Math.min(width - BOX.right, Math.max(BOX.left, toX(value)));
+    const names = JSON.stringify(segments.map(({ name }) => name));
+    if (names !== last) build(segments);
+    last = names;
+    [...element.querySelectorAll(".bar")].forEach((bar, i) => {
+      const [from, to] = segments[i].at.map(x);
+      Object.assign(bar.style, { left: `${from}px`, width: `${to - from}px` });
+      bar.firstElementChild.hidden = to - from < NARROW * segments[i].name.length;
+      bar.title = `${segments[i].name}: ${number(segments[i].at[0], unit)} to ${number(segments[i].at[1], unit)}`;
+    });
+    joints.forEach((joint, i) => {
+      const at = segments[i].at[1];
+      joint.hidden = at < span[0] || at > span[1];
+      joint.style.left = `${x(at)}px`;
+      setAttributes(joint, { "aria-valuemin": segments[i].at[0], "aria-valuemax": segments[i + 1]?.at[1] ?? range[1], "aria-valuenow": at, "aria-valuetext": number(at, unit) });
+    });
+  }
+
+  function build(segments) {
+    const bars = segments.map(({ name }, i) => button(undefined, () => chosen(i), { class: "bar", tabindex: "-1" }, html("span", { text: name })));
+    joints = moved ? segments.slice(0, -1).map(({ name }, i) => joint(name, segments[i + 1].name, i)) : [];
+    element.replaceChildren(...bars, ...joints);
+  }
+
+  function joint(before, after, i) {
+    const joint = html("div", { class: "joint-handle", role: "slider", tabindex: "0", "aria-label": `Where ${before} ends and ${after} begins` });
+    const to = (at) => {
+      const [least, most] = ["aria-valuemin", "aria-valuemax"].map((name) => Number(joint.getAttribute(name)));
+      const round = Number((Math.round(at / stepSize) * stepSize).toPrecision(9));
+      moved(i, Math.min(most - stepSize, Math.max(least + stepSize, round)));
+    };
+    draggable(joint, () => joint.focus() ?? i, (_, event) => to(toX.back(event.clientX - element.getBoundingClientRect().left)), () => rested());
+    joint.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10 }[event.key];
+      if (!step) return;
+      event.preventDefault();
+      to(Number(joint.getAttribute("aria-valuenow")) + step * stepSize);
+    });
+    return joint;
+  }
+
+  return { element, show };
+}
+
+/** `label` is what the dial is; the cursor is that of all pictures that follow, from 0 to `end()`, in so many seconds;
+    `spoken(at)` is a place in words. */
+export function createRun(root, label, cursor, { text = "Run", end = () => 360, steps = 360, seconds = 6, spoken = (at) => `${Math.round(at)} degrees` } = {}) {
+  let ticking = null;
+  const dial = html("input", { type: "range", min: 0, max: steps, step: 1, value: 0, "aria-label": label, oninput: () => cursor.place((Number(dial.value) / steps) * end()) });
+  const play = button(text, () => (ticking === null ? start() : stop()));
+  root.classList.add("run");
+  root.replaceChildren(play, dial);
+  cursor.watch((at) => {
+    if (at === null) return;
+    dial.value = Math.round((at / end()) * steps);
+    dial.setAttribute("aria-valuetext", spoken(at));
+  });
+
+  function start() {
+    play.textContent = "Pause";
+    let last = performance.now();
+    let at = cursor.at ?? 0;
+    const step = (now) => {
+      at = (at + ((now - last) / 1000 / seconds) * end()) % end();
+      last = now;
+      cursor.place(Number(at.toFixed(1)));
+      // a view that is not shown does not run
+      if (root.offsetParent === null) stop();
+      else ticking = requestAnimationFrame(step);
+    };
+    ticking = requestAnimationFrame(step);
+  }
+
+  function stop() {
+    cancelAnimationFrame(ticking);
+    ticking = null;
+    play.textContent = text;
+  }
 }

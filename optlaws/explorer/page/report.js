@@ -1,7 +1,7 @@
 // Reports in words and tables: how far a law can be trusted, or why there is none and how far one must go back. A click on
 // "check this proof" is an event of its own, which the page answers.
 
-import { html, renew } from "./svg.js";
+import { button, html, renew } from "./svg.js";
 import { headed, listed, number, plain, written } from "./units.js";
 
 export function showTrust(root, view, ways = [], go = () => {}) {
@@ -33,14 +33,14 @@ function trust({ status, word, advice, gap, facts, proof }) {
 
 /** The button by which the second checker is given what is shown. */
 export function checking() {
-  return html("p", {}, html("button", { type: "button", class: "link", "data-key": "prove", text: "check this proof", onclick: ({ target }) => target.dispatchEvent(new Event("prove", { bubbles: true })) }));
+  return html("p", {}, button("check this proof", ({ target }) => target.dispatchEvent(new Event("prove", { bubbles: true })), { class: "link", "data-key": "prove" }));
 }
 
 function refusal({ word, reason, tried }, ways, go) {
   const found = [html("p", { class: "reason", title: tried }, html("strong", { class: "word refused", text: word }), ` ${written(reason)}`)];
   if (ways === null) found.push(html("p", { class: "quiet", text: "looking for the nearest problem that has a law …" }));
   else if (ways.length) {
-    const buttons = ways.map((way) => html("button", { type: "button", "data-entry": way.entry, "data-value": way.value, text: way.text, onclick: () => go(way) }));
+    const buttons = ways.map((way) => button(way.text, () => go(way), { "data-entry": way.entry, "data-value": way.value }));
     found.push(html("p", { class: "ways" }, "Go back: ", ...buttons));
   }
   return found;

@@ -96,83 +96,63 @@ export function whole(state, file) {
   return found;
 }
 
-export class Study {
-  #past = [];
-  #future = [];
-  #last = { what: null, at: 0 };
-  #changed;
-  #kept;
-  #examples;
-  #writing = null;
-
-  /** `changed(state)` draws a state; `kept(address)` keeps it, without the examples of other views that nobody changed. */
-  constructor(state, changed, kept, examples) {
-    this.state = state;
-    this.#examples = examples;
-    this.#changed = changed;
-    this.#kept = kept;
-  }
+/** `changed(state)` draws a state; `kept(address)` keeps it, without the examples of other views that nobody changed. */
+export function createStudy(state, changed, kept, examples) {
+  let past = [];
+  let future = [];
+  let last = { what: null, at: 0 };
+  let writing = null;
 
   /** Write the address now. */
-  keep() {
-    if (this.#writing === null) return;
-    clearTimeout(this.#writing);
-    this.#writing = null;
-    const examples = (part) => Object.entries(this.#examples).filter(([view]) => VIEWS[view]?.part === part).map(([, value]) => value);
-    const shown = VIEWS[this.state.view]?.part;
-    const own = Object.entries(this.state).filter(([name, value]) => name === shown || !examples(name).some((one) => same(value, one)));
+  function keep() {
+    if (writing === null) return;
+    clearTimeout(writing);
+    writing = null;
+    const known = (part) => Object.entries(examples).filter(([view]) => VIEWS[view]?.part === part).map(([, value]) => value);
+    const shown = VIEWS[state.view]?.part;
+    const own = Object.entries(state).filter(([name, value]) => name === shown || !known(name).some((one) => same(value, one)));
     const address = written(Object.fromEntries(own));
     history.replaceState(null, "", address);
-    this.#kept(address);
-  }
-
-  get canUndo() {
-    return this.#past.length > 0;
-  }
-
-  get canRedo() {
-    return this.#future.length > 0;
+    kept(address);
   }
 
   /** Change a copy of the state; changes of the same thing in a row are one step. */
-  change(what, alter) {
-    const before = this.state;
-    const next = structuredClone(before);
+  function change(what, alter) {
+    const next = structuredClone(state);
     alter(next);
-    if (same(before, next)) return;
+    if (same(state, next)) return;
     const now = performance.now();
-    const dragged = press.down && this.#last.press === press.count;
-    const merged = what === this.#last.what && (dragged || now - this.#last.at < MERGED) && this.#past.length > 0;
-    if (!merged) this.#past = [...this.#past, before].slice(-MOST);
-    this.#last = { what, at: now, press: press.count };
-    this.#future = [];
-    this.#show(next);
+    const dragged = press.down && last.press === press.count;
+    const merged = what === last.what && (dragged || now - last.at < MERGED) && past.length > 0;
+    if (!merged) past = [...past, state].slice(-MOST);
+    last = { what, at: now, press: press.count };
+    future = [];
+    show(next);
   }
 
-  undo() {
-    if (!this.canUndo) return;
-    this.#future.push(this.state);
-    this.#last = { what: null, at: 0 };
-    this.#show(this.#past.pop());
-  }
-
-  redo() {
-    if (!this.canRedo) return;
-    this.#past.push(this.state);
-    this.#last = { what: null, at: 0 };
-    this.#show(this.#future.pop());
+  /** Take a step from one list of states to the other. */
+  function step(from, to) {
+    if (!from.length) return;
+    to.push(state);
+    rest();
+    show(from.pop());
   }
 
   /** The next change is a step of its own. */
-  rest() {
-    this.#last = { what: null, at: 0 };
+  function rest() {
+    last = { what: null, at: 0 };
   }
 
-  #show(state) {
-    this.state = state;
+  function show(next) {
+    state = next;
     // browsers take a few addresses a second, a drag makes more
-    clearTimeout(this.#writing);
-    this.#writing = setTimeout(() => this.keep(), WRITTEN);
-    this.#changed(state);
+    clearTimeout(writing);
+    writing = setTimeout(keep, WRITTEN);
+    changed(state);
   }
+
+  return {
+    get state() { return state; }, get canUndo() { return past.length > 0; }, get canRedo() { return future.length > 0; },
+    change, keep, rest, undo: () => step(past, future), redo: () => step(future, past),
+  };
 }

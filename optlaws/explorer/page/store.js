@@ -1,4 +1,5 @@
 // What the browser keeps for the page, as texts by their keys: all may be missing, or refused where it keeps nothing or is full.
+// Dark and light too: as the system says, unless the reader chose.
 
 export function stored(key) {
   try {
@@ -28,3 +29,21 @@ export function keys() {
 }
 
 export const remove = (key) => localStorage.removeItem(key);
+
+const KEY = "optlaws-theme";
+const dark = matchMedia("(prefers-color-scheme: dark)");
+
+function current() {
+  return document.documentElement.dataset.theme ?? (dark.matches ? "dark" : "light");
+}
+
+export function toggle() {
+  const chosen = current() === "dark" ? "light" : "dark";
+  document.documentElement.dataset.theme = chosen;
+  store(KEY, chosen);
+}
+
+export function restore() {
+  const chosen = stored(KEY);
+  if (chosen === "dark" || chosen === "light") document.documentElement.dataset.theme = chosen;
+}

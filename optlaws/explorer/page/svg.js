@@ -15,6 +15,8 @@ function fill(element, attributes, children) {
   return element;
 }
 
+export const setAttributes = (element, attributes) => fill(element, attributes, []);
+
 export function html(tag, attributes = {}, ...children) {
   return fill(document.createElement(tag), attributes, children);
 }
@@ -49,6 +51,22 @@ export function renew(root, ...children) {
   const next = all.find((one) => named(one) === name) ?? all[0] ?? root;
   if (next === root) root.tabIndex = -1;
   next.focus({ preventScroll: true });
+}
+
+/** Let parts of an element be dragged: `grasp(event)` is what is taken, or null; `pull(taken, event)` follows the pointer. */
+export function draggable(root, grasp, pull, release) {
+  let taken = null;
+  root.addEventListener("pointerdown", (event) => {
+    taken = event.button === 0 ? grasp(event) : null;
+    if (taken === null) return;
+    root.setPointerCapture(event.pointerId);
+    event.preventDefault();
+  });
+  root.addEventListener("pointermove", (event) => taken !== null && pull(taken, event));
+  for (const end of ["pointerup", "pointercancel"]) root.addEventListener(end, () => {
+    if (taken !== null) release(taken);
+    taken = null;
+  });
 }
 
 /** A path through [x, y] pairs in pixels, or in units of which a picture takes so many decimals; null breaks it. */

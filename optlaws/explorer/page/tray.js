@@ -1,15 +1,15 @@
 // The laws side by side: which one is active, another added, one taken away.
 
 import { swatch } from "./layout.js";
-import { html, renew } from "./svg.js";
+import { button, html, renew } from "./svg.js";
 
 const MOST = 4;
 
 /** Laws by their titles as chips, of which one is active; `choose(i)` makes one so, `remove(i)` takes one of several away. */
 export function chips(titles, active, choose, remove) {
   return titles.map((title, i) => html("span", { class: `chip${i === active ? " active" : ""}` },
-    html("button", { type: "button", class: "choose", "data-key": `law ${i}`, "aria-pressed": String(i === active), title, onclick: () => choose(i) }, swatch(i), html("span", { class: "chip-name", text: title })),
-    titles.length > 1 ? html("button", { type: "button", class: "close", "data-key": `close ${i}`, "aria-label": `Take ${title} away`, text: "×", onclick: () => remove(i) }) : null));
+    button(undefined, () => choose(i), { class: "choose", "data-key": `law ${i}`, "aria-pressed": String(i === active), title }, swatch(i), html("span", { class: "chip-name", text: title })),
+    titles.length > 1 ? button("×", () => remove(i), { class: "close", "data-key": `close ${i}`, "aria-label": `Take ${title} away` }) : null));
 }
 
 /** A field that adds a standard law by its name. */
@@ -19,49 +19,41 @@ export function standard(label, add) {
   return field;
 }
 
-export class Tray {
-  #root;
-  #study;
-  #shown = "";
+export function createTray(root, study) {
+  let shownText = "";
 
-  constructor(root, study) {
-    this.#root = root;
-    this.#study = study;
-  }
-
-  show(laws, views, active) {
+  function show(laws, views, active) {
     const shown = JSON.stringify([laws.length, views.map((view, i) => titled(laws[i], view)), active]);
-    if (shown === this.#shown) return;
-    this.#shown = shown;
+    if (shown === shownText) return;
+    shownText = shown;
     const titles = laws.map((law, i) => titled(law, views[i]));
-    renew(this.#root, ...chips(titles, active, (i) => this.#study.change("active", (state) => (state.active = i)), (i) => this.#remove(i)), ...(laws.length < MOST ? this.#adding() : []));
+    renew(root, ...chips(titles, active, (i) => study.change("active", (state) => (state.active = i)), remove), ...(laws.length < MOST ? adding() : []));
   }
 
   /** Compare with a standard law by its name. */
-  add(name) {
-    this.#study.change(`add ${name}`, (state) => {
+  function add(name) {
+    study.change(`add ${name}`, (state) => {
       const there = state.laws.findIndex((law) => law.name === name);
       if (there >= 0) state.active = there;
       else if (state.laws.length < MOST) state.active = state.laws.push({ name }) - 1;
     });
   }
 
-  #remove(i) {
-    this.#study.change(`remove ${i}`, (state) => {
+  function remove(i) {
+    study.change(`remove ${i}`, (state) => {
       state.laws.splice(i, 1);
       state.active = Math.min(state.active > i ? state.active - 1 : state.active, state.laws.length - 1);
     });
   }
 
-  #adding() {
-    const copy = html("button", {
-      type: "button", class: "quiet-button", text: "+ copy", title: "Keep this law and change a copy of it",
-      onclick: () => this.#study.change("copy", (state) => {
-        state.active = state.laws.push(structuredClone(state.laws[state.active])) - 1;
-      }),
-    });
-    return [copy, standard("Add a standard law by its name", (name) => this.add(name))];
+  function adding() {
+    const copy = button("+ copy", () => study.change("copy", (state) => {
+      state.active = state.laws.push(structuredClone(state.laws[state.active])) - 1;
+    }), { class: "quiet-button", title: "Keep this law and change a copy of it" });
+    return [copy, standard("Add a standard law by its name", add)];
   }
+
+  return { show, add };
 }
 
 function titled(law, view) {

@@ -1,7 +1,7 @@
 // The views of the page: the name of each in a study, its title, the part of the study that it shows, and its module. Five
 // views are tabs of one machine.
 //
-// A module exports `View`: `new View(root, study, start)` fills its element; `show(state)` draws a state; `files` lists what
+// A module exports `createView(root, study, start)`, which fills its element and returns what follows: `show(state)` draws a state; `files` lists what
 // can be saved by its kind, or as {kind, text, about}; `drawings` selects the pictures that are saved as one; `request(state)` is what the
 // view asks of the server, of which files are made; `moves` is whether that is a motion for a controller; `form` is what a
 // tab of the machine asks beside the machine; `dropped(file)` says whether the view takes a file that is dropped while it is

@@ -3,9 +3,8 @@
 import { Latest } from "../latest.js";
 import { column, explained, laidOut, panel, status } from "../layout.js";
 import { join } from "../machine_forms.js";
-import { Panels } from "../panels.js";
+import { createPanels, createStrip } from "../panels.js";
 import { showTrust, table } from "../report.js";
-import { Strip } from "../strip.js";
 import { html } from "../svg.js";
 import { listed } from "../units.js";
 
@@ -18,70 +17,61 @@ const WORDS = [
   ["free", "a segment whose positions and velocities at its ends are found with the law"],
 ];
 
-export class View {
-  files = ["python", "problem", "table"];
-  moves = true;
-  drawings = "#motion svg";
-  #study;
-  #at;
-  #motion;
-  #words = explained(WORDS);
-  #answer = null;
-  #ways = null;
-  #cycles;
-  #nearest;
-
-  constructor(root, study) {
-    this.#study = study;
-    this.#at = laidOut(root, column("machine", "Motion in machine units", status("cycle-trust"), panel("motion"), panel("segments")));
-    const strip = new Strip({ moved: (i, at) => this.#join(i, at), rested: () => study.rest(), chosen: (i) => this.#motion.look(this.#answer.segments[i].at) });
-    this.#motion = new Panels(this.#at.motion, { strip });
-    this.#motion.cursor.watch((at) => this.#mark(at));
-    this.#cycles = new Latest("api/cycle", (...answer) => this.#answered(...answer));
-    this.#nearest = new Latest("api/cycle-nearest", ({ ways }) => this.#render(this.#answer, ways), () => this.#render(this.#answer, []));
-  }
+export function createView(root, study) {
+  const files = ["python", "problem", "table"];
+  const words = explained(WORDS);
+  let current = null;
+  let waysBack = null;
+  const elements = laidOut(root, column("machine", "Motion in machine units", status("cycle-trust"), panel("motion"), panel("segments")));
+  const strip = createStrip({ moved: moveJoint, rested: () => study.rest(), chosen: (i) => motion.look(current.segments[i].at) });
+  const motion = createPanels(elements.motion, { strip });
+  motion.cursor.watch(mark);
+  const cycles = new Latest("api/cycle", answered);
+  const nearest = new Latest("api/cycle-nearest", ({ ways }) => render(current, ways), () => render(current, []));
 
   /** The request to the server, of which files are made too. */
-  request({ machine, axis }) {
+  function request({ machine, axis }) {
     return { study: machine, axis };
   }
 
-  show(state) {
-    this.#cycles.ask(this.request(state));
+  function show(state) {
+    cycles.ask(request(state));
   }
 
-  #answered(answer, question) {
-    if (answer.refused?.word === "no such law") this.#nearest.ask(question);
-    this.#render(answer, answer.refused?.word === "no such law" ? null : []);
+  function answered(answer, question) {
+    if (answer.refused?.word === "no such law") nearest.ask(question);
+    render(answer, answer.refused?.word === "no such law" ? null : []);
   }
 
-  #render(answer, ways) {
-    this.#answer = answer;
-    this.#ways = ways;
-    showTrust(this.#at.trust, answer, this.#ways, (way) => this.#back(way));
-    if (answer.facts) this.#at.trust.append(html("p", { class: "facts", text: listed(answer.facts) }));
-    this.#motion.show(answer);
-    this.#at.segments.replaceChildren(...(answer.refused ? [] : [segments(answer), ...beside(answer)]), this.#words);
+  function render(answer, ways) {
+    current = answer;
+    waysBack = ways;
+    showTrust(elements.trust, answer, waysBack, back);
+    if (answer.facts) elements.trust.append(html("p", { class: "facts", text: listed(answer.facts) }));
+    motion.show(answer);
+    elements.segments.replaceChildren(...(answer.refused ? [] : [segments(answer), ...beside(answer)]), words);
   }
 
   /** Let a segment end at an angle, and the next one begin there. */
-  #join(i, at) {
-    const { segments, turn } = this.#answer;
-    this.#study.change(`joint ${i}`, (state) => join((state.machine.axis[state.axis] ?? state.machine.axis[0]).segment, segments, { i, at, turn }));
+  function moveJoint(i, at) {
+    const { segments, turn } = current;
+    study.change(`joint ${i}`, (state) => join((state.machine.axis[state.axis] ?? state.machine.axis[0]).segment, segments, { i, at, turn }));
   }
 
   /** The segment that the cursor is in stands out in the table. */
-  #mark(at) {
-    const within = at === null ? -1 : (this.#answer?.segments ?? []).findIndex(({ at: [from, to] }) => at >= from && at <= to);
-    this.#at.segments.querySelectorAll("tbody tr").forEach((row, i) => (i === within ? row.setAttribute("aria-current", "true") : row.removeAttribute("aria-current")));
+  function mark(at) {
+    const within = at === null ? -1 : (current?.segments ?? []).findIndex(({ at: [from, to] }) => at >= from && at <= to);
+    elements.segments.querySelectorAll("tbody tr").forEach((row, i) => (i === within ? row.setAttribute("aria-current", "true") : row.removeAttribute("aria-current")));
   }
 
-  #back({ entry, value }) {
-    this.#study.change(`back ${entry}`, (state) => {
+  function back({ entry, value }) {
+    study.change(`back ${entry}`, (state) => {
       const axis = state.machine.axis[state.axis] ?? state.machine.axis[0];
       axis.limits = { ...axis.limits, [entry]: value };
     });
   }
+
+  return { files, moves: true, drawings: "#motion svg", request, show };
 }
 
 /** What the laws take beside modified sine in the same moves, where they are optimised. */

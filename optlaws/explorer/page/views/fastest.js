@@ -1,128 +1,112 @@
 // The view of least times: moves or a cycle with their limits on the left; the time that is given, from the proven least
 // on, and the front of what is least in it, in the middle; on the right the motion, drawn by the limit that is nearest.
 
-import { Chart, spanOf } from "../chart.js";
-import { Form, choice, flat } from "../form.js";
+import { createChart, spanOf } from "../chart.js";
+import { choice, createForm, flat } from "../form.js";
 import { Latest } from "../latest.js";
 import { column, group, growing, head, laidOut, panel, part, picture, status } from "../layout.js";
-import { Panels } from "../panels.js";
+import { createPanels, createStrip } from "../panels.js";
 import { showTrust, table } from "../report.js";
-import { Strip } from "../strip.js";
-import { html, svg } from "../svg.js";
+import { button, html, svg } from "../svg.js";
+import { valueAt } from "../timing.js";
 import { headed, number, shownUnit, written } from "../units.js";
 import { same } from "../views.js";
 
 const OWN = ["stroke", "start_velocity", "end_velocity", "start"];
 const LONGEST = 2; // times the least, where a front has no end of its own
 const FINEST = 1e-4; // s
-export class View {
-  files = ["problem", "proof"];
-  moves = true;
-  drawings = "#fastest-curves svg";
-  #study;
-  #state = null;
-  #at;
-  #fields;
-  #declared;
-  #space;
-  #shape = "";
-  #paths = [];
-  #panels;
-  #chart;
-  #answers;
-  #fronts;
-  #answer = null;
-  #front = null;
-  #asked = null;
-
-  constructor(root, study, { move, space, examples }) {
-    this.#space = space;
-    this.#declared = Object.fromEntries(move.map((entry) => [entry.name, entry]));
-    this.#study = study;
-    const of = choice("least time of", { "": "the cycle", moves: "moves of their own" }, "", (value) => study.change("least time of", (state) => {
-      delete state.time;
-      if (value) state.fastest = structuredClone(examples.moves);
-      else delete state.fastest;
-    }));
-    this.form = html("div", {}, group("Least time of", of), html("div"));
-    this.#at = { of, form: this.form.lastElementChild, ...laidOut(root,
-      column("fastest-middle", "The least time and what longer times save", status("fastest-trust"), panel("fastest-timing", { class: "panel timing-of-motion" }),
-        growing(head(part("fastest-objective"), html("p", { id: "fastest-words", class: "quiet" })), picture("fastest-chart")),
-        panel("fastest-legend", { role: "group", "aria-label": "Which limit is nearest" })),
-      column("fastest-right", "The motion with its limits", panel("fastest-curves"), panel("fastest-table", { class: "panel scrolled", tabindex: "0", role: "group", "aria-label": "What is taken of each limit" })),
-    ) };
-    this.#fields = new Form((what, alter) => this.#change(what, alter), () => study.rest());
-    this.#panels = new Panels(this.#at.curves, { strip: new Strip({ chosen: () => {} }) });
-    this.#chart = new Chart(this.#at.chart, (_, value) => (value === null ? study.rest() : this.#give(value / 1000)));
-    this.#answers = new Latest("api/fastest", (answer) => this.#answered(answer));
-    this.#fronts = new Latest("api/fastest-front", (front, question) => same(question, this.#asked) && this.#swept(front), (error) => this.#swept({ points: [], words: error.message }));
-    this.#timing();
-  }
+export function createView(root, study, { move, space, examples }) {
+  const files = ["problem", "proof"];
+  let stateShown = null;
+  let shownShape = "";
+  let paths = [];
+  let current = null;
+  let frontShown = null;
+  let asked = null;
+  const declared = Object.fromEntries(move.map((entry) => [entry.name, entry]));
+  const of = choice("least time of", { "": "the cycle", moves: "moves of their own" }, "", (value) => study.change("least time of", (state) => {
+    delete state.time;
+    if (value) state.fastest = structuredClone(examples.moves);
+    else delete state.fastest;
+  }));
+  const form = html("div", {}, group("Least time of", of), html("div"));
+  const at = { of, form: form.lastElementChild, ...laidOut(root,
+    column("fastest-middle", "The least time and what longer times save", status("fastest-trust"), panel("fastest-timing", { class: "panel timing-of-motion" }),
+      growing(head(part("fastest-objective"), html("p", { id: "fastest-words", class: "quiet" })), picture("fastest-chart")),
+      panel("fastest-legend", { role: "group", "aria-label": "Which limit is nearest" })),
+    column("fastest-right", "The motion with its limits", panel("fastest-curves"), panel("fastest-table", { class: "panel scrolled", tabindex: "0", role: "group", "aria-label": "What is taken of each limit" })),
+  ) };
+  const fieldsForm = createForm(change, () => study.rest());
+  const panels = createPanels(at.curves, { strip: createStrip({ chosen: () => {} }) });
+  const chart = createChart(at.chart, (_, value) => (value === null ? study.rest() : give(value / 1000)));
+  const answers = new Latest("api/fastest", answered);
+  const fronts = new Latest("api/fastest-front", (front, question) => same(question, asked) && swept(front), (error) => swept({ points: [], words: error.message }));
+  timing();
 
   /** The request to the server, of which files are made too. */
-  request(state) {
+  function request(state) {
     const { fastest, machine, time, axis } = state;
-    return { study: fastest ?? machine, axis: fastest ? this.#number(state) : axis, ...(time > 0 && { time }) };
+    return { study: fastest ?? machine, axis: fastest ? numberOf(state) : axis, ...(time > 0 && { time }) };
   }
 
-  show(state) {
-    this.#state = state;
+  function show(state) {
+    stateShown = state;
     const { fastest: moves } = state;
-    this.#at.form.hidden = !moves;
-    this.#at.of.value = moves ? "moves" : "";
-    if (moves) this.#form(moves, this.#entries(state));
-    const { time: _, ...question } = this.request(state);
-    this.#answers.ask(this.request(state));
-    if (!same(question, this.#asked)) {
-      this.#asked = question;
-      this.#front = null;
-      this.#fronts.ask(question);
+    at.form.hidden = !moves;
+    at.of.value = moves ? "moves" : "";
+    if (moves) showForm(moves, entries(state));
+    const { time: _, ...question } = request(state);
+    answers.ask(request(state));
+    if (!same(question, asked)) {
+      asked = question;
+      frontShown = null;
+      fronts.ask(question);
     }
-    this.#draw();
+    draw();
   }
 
-  #number({ fastest, move }) {
+  function numberOf({ fastest, move }) {
     return Number.isInteger(move) && move >= 0 && move < fastest.move.length ? move : 0;
   }
 
-  #entries(state) {
-    return state.fastest.move[this.#number(state)];
+  function entries(state) {
+    return state.fastest.move[numberOf(state)];
   }
 
   /** Change the move that is shown and the laws of all. */
-  #change(what, alter) {
-    this.#study.change(what, (state) => {
-      const table = { ...this.#entries(state), problem: state.fastest.problem ?? {} };
+  function change(what, alter) {
+    study.change(what, (state) => {
+      const table = { ...entries(state), problem: state.fastest.problem ?? {} };
       alter(table);
       const { problem, ...move } = table;
       if (Object.keys(problem ?? {}).length) state.fastest.problem = problem;
       else delete state.fastest.problem;
       move.limits ??= {};
-      state.fastest.move[this.#number(state)] = move;
+      state.fastest.move[numberOf(state)] = move;
     });
   }
 
-  #form(study, move) {
+  function showForm(moves, move) {
     const machine = flat({ mechanism: move.mechanism ?? {}, drive: move.drive ?? {} }).map((path) => JSON.stringify(path));
     // a field that is emptied stays until the move is another one
-    const shape = JSON.stringify([study.move.map(({ name }) => name), Boolean(move.drive), this.#number(this.#state)]);
-    if (shape !== this.#shape || machine.some((path) => !this.#paths.includes(path))) [this.#shape, this.#paths] = [shape, machine];
-    this.#fields.draw(this.#at.form, [shape, this.#paths], { ...move, problem: study.problem ?? {} }, () => this.#build(study, move, this.#paths.map((path) => JSON.parse(path))));
+    const shape = JSON.stringify([moves.move.map(({ name }) => name), Boolean(move.drive), numberOf(stateShown)]);
+    if (shape !== shownShape || machine.some((path) => !paths.includes(path))) [shownShape, paths] = [shape, machine];
+    fieldsForm.draw(at.form, [shape, paths], { ...move, problem: moves.problem ?? {} }, () => build(moves, move, paths.map((path) => JSON.parse(path))));
   }
 
-  #build(study, move, machine) {
-    const several = choice("move", { ...study.move.map(({ name }) => name) }, this.#number(this.#state), (i) => this.#study.change("move", (state) => {
+  function build(moves, move, machine) {
+    const several = choice("move", { ...moves.move.map(({ name }) => name) }, numberOf(stateShown), (i) => study.change("move", (state) => {
       state.move = Number(i);
       delete state.time;
     }));
-    const { limits, follower, front } = this.#declared;
+    const { limits, follower, front } = declared;
     const limited = limits.entries.filter(({ name }) => (!name.includes("torque") || move.drive) && (!name.startsWith("residual") || move.follower));
-    const fields = (entry, entries = entry.entries) => this.#fields.fields(entries, [entry.name], []);
-    const of = (part) => machine.filter(([first]) => first === part).map((path) => this.#fields.field({ path, placeholder: "", label: path.slice(1).join(" ").replaceAll("_", " ") }));
+    const fields = (entry, entries = entry.entries) => fieldsForm.fields(entries, [entry.name], []);
+    const of = (part) => machine.filter(([first]) => first === part).map((path) => fieldsForm.field({ path, placeholder: "", label: path.slice(1).join(" ").replaceAll("_", " ") }));
     return [
-      group("Move", several, ...this.#fields.fields(OWN.map((name) => this.#declared[name]))),
+      group("Move", several, ...fieldsForm.fields(OWN.map((name) => declared[name]))),
       group("At most", ...fields(limits, limited)),
-      group("Laws", ...this.#fields.fields(this.#space, ["problem"], [])),
+      group("Laws", ...fieldsForm.fields(space, ["problem"], [])),
       ...(machine.length ? [group("Mechanism", ...of("mechanism")), group("Drive", ...of("drive"))] : []),
       group("What vibrates", ...fields(follower)),
       group("Front", ...fields(front, front.entries.filter(({ name }) => name === "longest"))),
@@ -132,96 +116,96 @@ export class View {
   // --- the time that is given ---
 
   /** Give the motion a time; the least is given by none. */
-  #give(time) {
-    const least = this.#answer?.least?.time ?? 0;
-    this.#study.change("time", (state) => {
+  function give(time) {
+    const least = current?.least?.time ?? 0;
+    study.change("time", (state) => {
       if (time > least * (1 + 1e-6)) state.time = Number(time.toPrecision(7));
       else delete state.time;
     });
   }
 
   /** One slider of the time, whose stop is the proven least, and beside it the time and the speed as numbers. */
-  #timing() {
+  function timing() {
     const slide = html("input", { type: "range", min: 0, max: 1000, step: 1, "aria-label": "Time of the motion" });
     const entered = (title, of) => {
       const field = html("input", { type: "number", min: 0, step: "any", "aria-label": title });
-      field.addEventListener("change", () => Number(field.value) > 0 && this.#give(of(Number(field.value))));
+      field.addEventListener("change", () => Number(field.value) > 0 && give(of(Number(field.value))));
       return field;
     };
     const time = entered("Time of the motion, ms", (value) => value / 1000);
     const speed = entered("Motions a minute", (value) => 60 / value);
-    const stop = html("button", { type: "button", text: "least", title: "The proven least time", onclick: () => this.#give(0) });
+    const stop = button("least", () => give(0), { title: "The proven least time" });
     slide.addEventListener("input", () => {
-      const [least, longest] = this.#reach();
-      this.#give(least * (longest / least) ** (Number(slide.value) / 1000));
+      const [least, longest] = reach();
+      give(least * (longest / least) ** (Number(slide.value) / 1000));
     });
-    slide.addEventListener("change", () => this.#study.rest());
-    this.#at.timing.replaceChildren(stop, slide, html("label", {}, time, " ms"), html("label", {}, speed, " / min"));
-    this.#at.showTime = () => {
-      const [least, longest] = this.#reach();
-      const now = this.#answer?.time ?? least;
+    slide.addEventListener("change", () => study.rest());
+    at.timing.replaceChildren(stop, slide, html("label", {}, time, " ms"), html("label", {}, speed, " / min"));
+    at.showTime = () => {
+      const [least, longest] = reach();
+      const now = current?.time ?? least;
       slide.value = Math.round((1000 * Math.log(now / least)) / Math.log(longest / least)) || 0;
-      slide.setAttribute("aria-valuetext", `${number(1000 * now, "", 5)} ms, ${number(60 / now, "", 5)} a minute; the least is ${this.#answer?.least?.text ?? ""} ms`);
+      slide.setAttribute("aria-valuetext", `${number(1000 * now, "", 5)} ms, ${number(60 / now, "", 5)} a minute; the least is ${current?.least?.text ?? ""} ms`);
       if (document.activeElement !== time) time.value = Number((1000 * now).toPrecision(7));
       if (document.activeElement !== speed) speed.value = Number((60 / now).toPrecision(7));
     };
   }
 
   /** The least time and the longest that is shown, s. */
-  #reach() {
-    const least = this.#answer?.least?.time ?? 1;
-    const last = this.#front?.points?.at(-1)?.[0] ?? 0;
-    const now = this.#answer?.time ?? least;
+  function reach() {
+    const least = current?.least?.time ?? 1;
+    const last = frontShown?.points?.at(-1)?.[0] ?? 0;
+    const now = current?.time ?? least;
     return [least, Math.max(last > least ? last : LONGEST * least, now)];
   }
 
-  #answered(answer) {
-    this.#answer = answer;
-    showTrust(this.#at.trust, answer);
-    this.#draw();
+  function answered(answer) {
+    current = answer;
+    showTrust(at.trust, answer);
+    draw();
   }
 
-  #swept(front) {
-    this.#front = front;
-    this.#draw();
+  function swept(front) {
+    frontShown = front;
+    draw();
   }
 
-  #draw() {
-    const answer = this.#answer;
+  function draw() {
+    const answer = current;
     if (!answer) return;
-    this.#panels.show(answer.refused ? answer : { ...answer, panels: coloured(answer) });
-    this.#at.table.replaceChildren(...(answer.refused ? [] : [taken(answer)]));
-    this.#at.legend.replaceChildren(...(answer.refused ? [] : legend(answer)));
-    this.#at.timing.hidden = Boolean(answer.refused);
-    this.#at.words.textContent = answer.refused ? "" : [answer.note, this.#front?.words ?? "computing …"].filter(Boolean).join(" · ");
-    this.#at.objective.replaceChildren(...this.#objective());
-    this.#chart.show(answer.refused || !this.#front?.points?.length ? null : this.#picture());
-    if (!answer.refused) this.#at.showTime();
+    panels.show(answer.refused ? answer : { ...answer, panels: coloured(answer) });
+    at.table.replaceChildren(...(answer.refused ? [] : [taken(answer)]));
+    at.legend.replaceChildren(...(answer.refused ? [] : legend(answer)));
+    at.timing.hidden = Boolean(answer.refused);
+    at.words.textContent = answer.refused ? "" : [answer.note, frontShown?.words ?? "computing …"].filter(Boolean).join(" · ");
+    at.objective.replaceChildren(...objective());
+    chart.show(answer.refused || !frontShown?.points?.length ? null : pictured());
+    if (!answer.refused) at.showTime();
   }
 
-  #objective() {
-    const { objectives = [], minimise } = this.#answer;
+  function objective() {
+    const { objectives = [], minimise } = current;
     if (!objectives.length) return [];
     const options = Object.fromEntries([...(minimise ? [] : [["", "nothing"]]), ...objectives.map((value) => [value, `least ${value}`])]);
-    return [choice("what is least in longer times", options, minimise ?? "", (value) => this.#change("objective", (move) => {
+    return [choice("what is least in longer times", options, minimise ?? "", (value) => change("objective", (move) => {
       const others = (move.front?.minimise ?? []).filter((name) => name !== value);
       move.front = { ...move.front, minimise: [value, ...others].slice(0, 6) };
     }))];
   }
 
   /** The front over the time, with the times that no law and no law of this space beats. */
-  #picture() {
-    const { least, time, rows, minimise } = this.#answer;
-    const { points, name, unit, proven } = this.#front;
+  function pictured() {
+    const { least, time, rows, minimise } = current;
+    const { points, name, unit, proven } = frontShown;
     const { unit: shown, factor } = shownUnit(unit);
     const known = points.filter(([, value]) => value !== null).map(([at, one, bound]) => [at, factor * one, bound === null ? null : factor * bound]);
     const values = known.map(([, value]) => value);
-    const [from, to] = this.#reach();
+    const [from, to] = reach();
     const first = least.best_possible === null ? from : Math.min(from, least.best_possible);
     const x = { name: "time, ms", range: [1000 * (first - 0.06 * (to - first)), 1000 * (to + 0.02 * (to - first))] };
     const y = { name: headed(name, unit), range: spanOf([...values, 0]) };
     const top = y.range[1];
-    const value = this.#valueAt(known, time);
+    const value = known.length ? valueAt(known.map(([at]) => at), values, time) : 0; // on the line of the front; what is read is the law's own
     const lines = [
       { name: "limit", title: `no law of the space has a lower ${name}`, points: known.filter(([, , bound]) => bound !== null).map(([at, , bound]) => [1000 * at, bound]) },
       { name: proven ? "front" : "front local", title: `least ${name}`, points: known.map(([at, one]) => [1000 * at, one]) },
@@ -239,14 +223,7 @@ export class View {
     };
   }
 
-  /** Where the handle stands: on the line of the front; what is read is the law's own. */
-  #valueAt(points, time) {
-    const i = points.findIndex(([at]) => at >= time);
-    if (i < 0) return points.at(-1)?.[1] ?? 0;
-    if (i === 0) return points[0][1];
-    const [[from, low], [to, high]] = [points[i - 1], points[i]];
-    return low + ((time - from) / (to - from)) * (high - low);
-  }
+  return { files, moves: true, drawings: "#fastest-curves svg", request, show, form };
 }
 
 /** The curves with a series for each limit, where most is taken of that one. */

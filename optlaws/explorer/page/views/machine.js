@@ -1,16 +1,14 @@
 // The mechanism of the machine and its torque: the mechanism that moves with torque over speed, over the ratio and over the
 // input, and torque, power and speed over the cycle for each law.
 
-import { Chart, spanOf } from "../chart.js";
+import { createChart, spanOf } from "../chart.js";
 import { Latest } from "../latest.js";
 import { column, growing, head, laidOut, panel, part, picture, status, swatch, tabs } from "../layout.js";
-import { Linkage } from "../linkage.js";
 import { beside, changeAll } from "../machine_forms.js";
-import { Panels } from "../panels.js";
+import { createLinkage } from "../mechanism.js";
+import { createPanels, createRun, createStrip } from "../panels.js";
 import { showTrust, table } from "../report.js";
-import { Run } from "../run.js";
-import { Strip } from "../strip.js";
-import { html, renew } from "../svg.js";
+import { button, html, renew } from "../svg.js";
 import { chips, standard } from "../tray.js";
 import { headed, number, written } from "../units.js";
 import { same } from "../views.js";
@@ -24,156 +22,138 @@ const SPAN = 3; // ratios from a third of the present one to three times it
 const NEAR = 1.2;
 const MOVES = ["rise", "return", "move"];
 
-export class View {
-  files = ["python", "problem", "table"];
-  moves = true;
-  drawings = "#machine-curves svg";
-  #study;
-  #state = null;
-  #linkage;
-  #curves;
-  #chart;
-  #input;
-  #chooses;
-  #machines;
-  #earlier;
-  #limits;
-  #ratios;
-  #answer = null;
-  #least = [];
-  #over = null;
-  #asked = null;
-  #due = false;
-  #span = null;
-  #optimum = null; // the last answer with optimal laws, and the question that it answers
-  #orders = new WeakMap(); // of questions: the one asked later, or for the optimum, is shown over another
-  #order = 0;
-  #shown = 0;
-  #still = () => {};
-  #at;
-
-  constructor(root, study) {
-    this.#study = study;
-    const made = (this.#at = laidOut(root,
-      column("machine-middle", "The mechanism and its torque", part("machine-tray", { class: "tray", role: "group", "aria-label": "Laws side by side" }), status("machine-trust"),
-        growing(picture("machine-drawing"), part("machine-turning")),
-        growing(head(part("machine-pictures", { role: "tablist", "aria-label": "Pictures of the machine" }), html("p", { id: "machine-words", class: "quiet" })), picture("machine-chart"), part("machine-input"))),
-      column("machine-right", "Torque, power and speed over the cycle", panel("machine-curves"),
-        panel("machine-table", { class: "panel scrolled", tabindex: "0", role: "group", "aria-label": "What the laws ask of the drive" })),
-    ));
-    this.#linkage = new Linkage(made.drawing);
-    this.#chart = new Chart(made.chart, (key, value) => this.#moved(key, value));
-    this.#input = new Panels(made.input);
-    this.#curves = new Panels(made.curves, { strip: new Strip({ chosen: () => {} }) });
-    this.#chooses = tabs(made.pictures, PICTURES, (key) => study.change("machine picture", (state) => (state.machinePicture = key)));
-    this.#playing();
-    this.#machines = new Latest("api/machine", (answer, question) => this.#solved(answer, question));
-    this.#earlier = new Latest("api/machine", (answer, question) => this.#evaluated(answer, question), () => this.#solve());
-    this.#limits = new Latest("api/machine-limits", (answer, question) => this.#isOfNow(question) && this.#bounded(answer), () => this.#bounded({ moves: [] }));
-    this.#ratios = new Latest("api/machine-ratios", (answer, question) => same(question, this.#asked) && this.#swept(answer), (error) => this.#swept({ ratios: [], words: error.message }));
-  }
+export function createView(root, study) {
+  const files = ["python", "problem", "table"];
+  let stateShown = null;
+  let current = null;
+  let least = [];
+  let over = null;
+  let asked = null;
+  let due = false;
+  let span = null;
+  let optimum = null; // the last answer with optimal laws, and the question that it answers
+  const orders = new WeakMap(); // of questions: the one asked later, or for the optimum, is shown over another
+  let order = 0;
+  let shown = 0;
+  let still = () => {};
+  const at = laidOut(root,
+    column("machine-middle", "The mechanism and its torque", part("machine-tray", { class: "tray", role: "group", "aria-label": "Laws side by side" }), status("machine-trust"),
+      growing(picture("machine-drawing"), part("machine-turning")),
+      growing(head(part("machine-pictures", { role: "tablist", "aria-label": "Pictures of the machine" }), html("p", { id: "machine-words", class: "quiet" })), picture("machine-chart"), part("machine-input"))),
+    column("machine-right", "Torque, power and speed over the cycle", panel("machine-curves"),
+      panel("machine-table", { class: "panel scrolled", tabindex: "0", role: "group", "aria-label": "What the laws ask of the drive" })),
+  );
+  const linkage = createLinkage(at.drawing);
+  const chart = createChart(at.chart, moved);
+  const input = createPanels(at.input);
+  const curves = createPanels(at.curves, { strip: createStrip({ chosen: () => {} }) });
+  const chooses = tabs(at.pictures, PICTURES, (key) => study.change("machine picture", (state) => (state.machinePicture = key)));
+  playing();
+  const machines = new Latest("api/machine", solved);
+  const earlier = new Latest("api/machine", evaluated, solve);
+  const limits = new Latest("api/machine-limits", (answer, question) => isOfNow(question) && bounded(answer), () => bounded({ moves: [] }));
+  const ratios = new Latest("api/machine-ratios", (answer, question) => same(question, asked) && swept(answer), (error) => swept({ ratios: [], words: error.message }));
 
   /** The request to the server, of which files are made too. */
-  request({ machine, axis }) {
+  function request({ machine, axis }) {
     return { study: machine, axis };
   }
 
-  show(state) {
-    this.#state = state;
-    this.#tray(state);
-    const picture = this.#picture(state);
-    this.#chooses(picture);
-    this.#at.chart.hidden = picture === "input";
-    this.#at.input.hidden = picture !== "input";
-    if (picture === "ratio") this.#sweep(state);
-    this.#order += 1;
-    const laws = this.#lawsBefore(state);
-    if (laws) this.#ask(this.#earlier, { study: state.machine, axis: state.axis, laws }, 2 * this.#order);
-    else this.#solve();
-    this.#draw();
+  function show(state) {
+    stateShown = state;
+    tray(state);
+    const picture = pictureOf(state);
+    chooses(picture);
+    at.chart.hidden = picture === "input";
+    at.input.hidden = picture !== "input";
+    if (picture === "ratio") sweep(state);
+    order += 1;
+    const laws = lawsBefore(state);
+    if (laws) ask(earlier, { study: state.machine, axis: state.axis, laws }, 2 * order);
+    else solve();
+    draw();
   }
 
-  #ask(latest, question, order) {
-    this.#orders.set(question, order);
+  function ask(latest, question, order) {
+    orders.set(question, order);
     latest.ask(question);
   }
 
   /** Ask for the optimal laws of what is set now, and for what takes as long. */
-  #solve() {
-    const { machine, axis } = this.#state;
-    this.#ask(this.#machines, { study: machine, axis }, 2 * this.#order + 1);
-    if (this.#due) this.#ratios.ask(this.#asked);
-    this.#due = false;
+  function solve() {
+    const { machine, axis } = stateShown;
+    ask(machines, { study: machine, axis }, 2 * order + 1);
+    if (due) ratios.ask(asked);
+    due = false;
   }
 
   /** The optimal laws of the values before, if the machine alone has changed since, so that others are to be found. */
-  #lawsBefore(state) {
-    if (!this.#optimum) return null;
-    const { answer: { limiting, optima }, question } = this.#optimum;
+  function lawsBefore(state) {
+    if (!optimum) return null;
+    const { answer: { limiting, optima }, question } = optimum;
     const now = { study: state.machine, axis: state.axis };
     return same(likeness(now), likeness(question)) && !same(driving(now, limiting), driving(question, limiting)) ? optima : null;
   }
 
-  #solved(answer, question) {
-    if (!answer.refused) this.#optimum = answer.optima ? { answer, question } : null;
-    this.#answered(answer, question);
+  function solved(answer, question) {
+    if (!answer.refused) optimum = answer.optima ? { answer, question } : null;
+    answered(answer, question);
   }
 
   /** What the laws before do in the machine as it is now; their optimum is looked for as soon as nothing newer is asked. */
-  #evaluated(answer, question) {
-    if (!answer.refused) this.#answered(answer, question);
-    if (!this.#earlier.behind && this.#isOfNow(question)) this.#solve();
+  function evaluated(answer, question) {
+    if (!answer.refused) answered(answer, question);
+    if (!earlier.behind && isOfNow(question)) solve();
   }
 
-  #picture({ machinePicture }) {
+  function pictureOf({ machinePicture }) {
     return Object.hasOwn(PICTURES, machinePicture) ? machinePicture : "speed";
   }
 
-  #isOfNow(question) {
-    return same(question.study, this.#state.machine) && question.axis === this.#state.axis;
+  function isOfNow(question) {
+    return same(question.study, stateShown.machine) && question.axis === stateShown.axis;
   }
 
-  #answered(answer, question) {
-    const order = this.#orders.get(question);
-    if (order < this.#shown) return;
-    this.#shown = order;
-    this.#answer = answer;
-    this.#least = [];
+  function answered(answer, question) {
+    const order = orders.get(question);
+    if (order < shown) return;
+    shown = order;
+    current = answer;
+    least = [];
     // while a drag goes on the newest answer alone is looked at closer
-    if (!question.laws && !answer.refused && !this.#machines.behind) this.#limits.ask(question);
-    showTrust(this.#at.trust, answer);
-    if (!answer.refused) this.#linkage.show(answer.drawing);
-    else this.#linkage.show(null);
-    this.#still();
-    this.#tray(this.#state);
-    this.#draw();
+    if (!question.laws && !answer.refused && !machines.behind) limits.ask(question);
+    showTrust(at.trust, answer);
+    linkage.show(answer.refused ? null : answer.drawing);
+    still();
+    tray(stateShown);
+    draw();
   }
 
-  #bounded({ moves }) {
-    this.#least = moves;
-    this.#draw();
+  function bounded({ moves }) {
+    least = moves;
+    draw();
   }
 
   /** Curves, table and picture of what is known. */
-  #draw() {
-    if (!this.#answer) return;
-    const { refused, panels, over_input: overInput } = this.#answer;
-    this.#curves.show(refused ? this.#answer : { ...this.#answer, panels: panels.map((panel, i) => (i === 0 ? { ...panel, series: [...panel.series, ...this.#leastLines()] } : panel)) });
-    this.#at.table.replaceChildren(...(refused ? [] : [driveTable(this.#answer, this.#names()), ...(this.#least.length ? [table(LEAST, ["in the move", "peak", "lower bound", "RMS", "lower bound"], this.#least.map(({ name, peak, rms }) => [name, ...peak, ...rms]))] : [])]));
-    this.#input.show(refused ? this.#answer : overInput);
-    const picture = this.#picture(this.#state);
-    this.#at.words.textContent = { speed: "dashed: continuous torque", ratio: this.#over?.words ?? "computing …", input: "" }[picture];
-    if (picture === "speed") this.#chart.show(refused ? null : this.#overSpeed());
-    if (picture === "ratio") this.#chart.show(refused ? null : this.#overRatio());
+  function draw() {
+    if (!current) return;
+    const { refused, panels, over_input: overInput } = current;
+    curves.show(refused ? current : { ...current, panels: panels.map((panel, i) => (i === 0 ? { ...panel, series: [...panel.series, ...leastLines()] } : panel)) });
+    at.table.replaceChildren(...(refused ? [] : [driveTable(current, names()), ...(least.length ? [table(LEAST, ["in the move", "peak", "lower bound", "RMS", "lower bound"], least.map(({ name, peak, rms }) => [name, ...peak, ...rms]))] : [])]));
+    input.show(refused ? current : overInput);
+    const picture = pictureOf(stateShown);
+    at.words.textContent = { speed: "dashed: continuous torque", ratio: over?.words ?? "computing …", input: "" }[picture];
+    if (picture === "speed") chart.show(refused ? null : overSpeed());
+    if (picture === "ratio") chart.show(refused ? null : overRatio());
   }
 
-  #names() {
-    return beside(this.#state.machine, this.#state.axis).map(({ name }) => name);
+  function names() {
+    return beside(stateShown.machine, stateShown.axis).map(({ name }) => name);
   }
 
   /** The least peak of each move, on both sides, as lines over its time. */
-  #leastLines() {
-    const known = this.#least.filter(({ peak: [, least] }) => least !== null);
+  function leastLines() {
+    const known = least.filter(({ peak: [, least] }) => least !== null);
     return [1, -1].filter(() => known.length).map((side) => ({
       law: "limit", name: "no law that never turns back has a lower peak in this move",
       at: known.flatMap(({ at }) => [...at, at[1]]), values: known.flatMap(({ peak: [, least] }) => [side * least, side * least, null]),
@@ -182,37 +162,37 @@ export class View {
 
   // --- laws side by side ---
 
-  #tray(state) {
+  function tray(state) {
     const { machine, axis } = state;
     const laws = beside(machine, axis).slice(0, MOST);
     const places = laws.map((law) => machine.axis.indexOf(law));
-    const titles = laws.map(({ name }, i) => (this.#answer?.laws?.[i]?.refused ? `${name} (${this.#answer.laws[i].refused.word})` : name));
-    const shown = chips(titles, places.indexOf(axis), (i) => this.#study.change("axis", (next) => (next.axis = places[i])), (i) => this.#remove(places[i]));
-    const others = machine.axis.map((one, i) => [one, i]).filter(([one]) => !beside(machine, axis).includes(one)).map(([one, i]) => html("button", { type: "button", class: "quiet-button", text: one.name, title: "Another machine of this study", onclick: () => this.#study.change("axis", (next) => (next.axis = i)) }));
+    const titles = laws.map(({ name }, i) => (current?.laws?.[i]?.refused ? `${name} (${current.laws[i].refused.word})` : name));
+    const shown = chips(titles, places.indexOf(axis), (i) => study.change("axis", (next) => (next.axis = places[i])), (i) => remove(places[i]));
+    const others = machine.axis.map((one, i) => [one, i]).filter(([one]) => !beside(machine, axis).includes(one)).map(([one, i]) => button(one.name, () => study.change("axis", (next) => (next.axis = i)), { class: "quiet-button", title: "Another machine of this study" }));
     const full = laws.length >= MOST || machine.axis.length >= MOST_AXES;
-    renew(this.#at.tray, ...shown, ...(full ? [] : this.#adding()), ...others);
+    renew(at.tray, ...shown, ...(full ? [] : adding()), ...others);
   }
 
-  #remove(at) {
-    this.#study.change(`remove axis ${at}`, ({ machine }) => machine.axis.splice(at, 1));
-    this.#study.change(`remove axis ${at}`, (state) => {
+  function remove(at) {
+    study.change(`remove axis ${at}`, ({ machine }) => machine.axis.splice(at, 1));
+    study.change(`remove axis ${at}`, (state) => {
       if (state.axis >= at && state.axis > 0) state.axis -= 1;
     });
   }
 
-  #adding() {
-    const optimal = html("button", { type: "button", class: "quiet-button", text: "+ optimal", title: "The law of the least torque beside", onclick: () => this.#add("least RMS torque", (axis) => {
+  function adding() {
+    const optimal = button("+ optimal", () => add("least RMS torque", (axis) => {
       axis.minimise = axis.minimise === "rms torque" && !axis.segment.some(({ law }) => law) ? "torque" : "rms torque";
       for (const segment of axis.segment) delete segment.law;
       if (axis.minimise === "torque") axis.name = "least peak torque";
-    }) });
-    return [optimal, standard("Add a standard law to the machine", (law) => this.#add(law, (axis) => {
+    }), { class: "quiet-button", title: "The law of the least torque beside" });
+    return [optimal, standard("Add a standard law to the machine", (law) => add(law, (axis) => {
       for (const segment of axis.segment) if (MOVES.includes(segment.kind)) segment.law = law;
     }))];
   }
 
-  #add(name, alter) {
-    this.#study.change(`add ${name}`, (state) => {
+  function add(name, alter) {
+    study.change(`add ${name}`, (state) => {
       const axis = structuredClone(state.machine.axis[state.axis] ?? state.machine.axis[0]);
       axis.name = name;
       alter(axis);
@@ -226,8 +206,8 @@ export class View {
   // --- pictures that are dragged ---
 
   /** Torque over speed at the motor, whose limits are dragged. */
-  #overSpeed() {
-    const { over_speed: known, active } = this.#answer;
+  function overSpeed() {
+    const { over_speed: known, active } = current;
     if (!known) return null;
     const { courses, greatest, motor } = known;
     const speeds = courses.flatMap((course) => course.speeds);
@@ -238,18 +218,18 @@ export class View {
     const sides = (points, name) => [1, -1].flatMap((side) => (back ? [1, -1] : [1]).map((way) => ({ name, points: points.map(([speed, torque]) => [way * speed, side * torque]) })));
     const lines = [
       ...Object.entries(motor.curves).flatMap(([name, points]) => sides(points, `motor-${name}`)),
-      ...courses.map(({ law, speeds: at, torques: values }) => ({ name: `line law-${law}${law === active ? " active" : ""}`, title: this.#names()[law], points: at.map((speed, i) => [speed, values[i]]) })),
+      ...courses.map(({ law, speeds: at, torques: values }) => ({ name: `line law-${law}${law === active ? " active" : ""}`, title: names()[law], points: at.map((speed, i) => [speed, values[i]]) })),
     ];
     if (motor.greatest_speed !== null) lines.push({ name: "motor-peak", points: [[motor.greatest_speed, -most], [motor.greatest_speed, most]] });
     return {
       x: { name: headed("speed of the motor", "rpm"), range: [back ? -fastest : 0, fastest] },
       y: { name: "torque, N m", range: [-most, most] },
-      lines, handles: this.#motorHandles(motor, most, fastest),
+      lines, handles: motorHandles(motor, most, fastest),
       told: `Torque over speed at the motor; the greatest torque is ${number(greatest.torque)} N m, the greatest speed ${written({ value: greatest.speed, unit: "rpm", digits: 6 })}`,
     };
   }
 
-  #motorHandles(motor, most, fastest) {
+  function motorHandles(motor, most, fastest) {
     const handle = (key, at, along, label, unit) => {
       const size = 10 ** Math.floor(Math.log10(along === "x" ? fastest : most) - 2);
       const value = at[along === "x" ? 0 : 1];
@@ -265,41 +245,41 @@ export class View {
   }
 
   /** What is to be asked of the ratios around the present one; a drag within them asks nothing new. */
-  #sweep(state) {
+  function sweep(state) {
     const axis = state.machine.axis[state.axis] ?? state.machine.axis[0];
     const ratio = Number(axis.drive?.ratio ?? 1);
-    const [low, high] = this.#span ?? [0, 0];
-    if (ratio < NEAR * low || ratio > high / NEAR) this.#span = [ratio / SPAN, SPAN * ratio].map((value) => Number(value.toPrecision(2)));
+    const [low, high] = span ?? [0, 0];
+    if (ratio < NEAR * low || ratio > high / NEAR) span = [ratio / SPAN, SPAN * ratio].map((value) => Number(value.toPrecision(2)));
     const study = structuredClone(state.machine);
     for (const one of beside(study, state.axis)) if (one.drive) delete one.drive.ratio;
-    const question = { study, axis: state.axis, low: this.#span[0], high: this.#span[1] };
-    if (same(question, this.#asked)) return;
-    this.#asked = question;
-    this.#over = null;
-    this.#due = true;
+    const question = { study, axis: state.axis, low: span[0], high: span[1] };
+    if (same(question, asked)) return;
+    asked = question;
+    over = null;
+    due = true;
   }
 
-  #swept(answer) {
-    this.#over = answer;
-    this.#draw();
+  function swept(answer) {
+    over = answer;
+    draw();
   }
 
-  #overRatio() {
-    const { active, rows } = this.#answer;
-    const axis = this.#state.machine.axis[this.#state.axis];
+  function overRatio() {
+    const { active, rows } = current;
+    const axis = stateShown.machine.axis[stateShown.axis];
     const ratio = Number(axis.drive?.ratio ?? 1);
     if (!axis.drive?.motor || !(ratio > 0)) return null;
     const now = (name) => rows.find((row) => row.name === name)?.values[active] ?? null;
-    const { ratios = [], laws = [], bound = [], fits = [] } = this.#over ?? {};
-    const of = this.#over?.of === "peak" ? "peak" : "rms";
+    const { ratios = [], laws = [], bound = [], fits = [] } = over ?? {};
+    const of = over?.of === "peak" ? "peak" : "rms";
     const value = now(of === "peak" ? "peak torque" : "RMS torque") ?? 0;
     const along = (values) => ratios.map((one, i) => [one, values[i]]);
     const lines = laws.flatMap((law, i) => [
-      { name: `line law-${i}${i === active ? " active" : ""}`, title: `${this.#names()[i]}: RMS torque`, points: along(law.rms) },
-      { name: `line thin law-${i}`, title: `${this.#names()[i]}: peak torque`, points: along(law.peak) },
+      { name: `line law-${i}${i === active ? " active" : ""}`, title: `${names()[i]}: RMS torque`, points: along(law.rms) },
+      { name: `line thin law-${i}`, title: `${names()[i]}: peak torque`, points: along(law.peak) },
     ]);
     if (bound.some((one) => one !== null)) lines.push({ name: "limit", title: "lower bound", points: along(bound) });
-    const [low, high] = this.#span;
+    const [low, high] = span;
     const shown = [value, ...laws.flatMap((law) => [...law.rms, ...law.peak])];
     const mine = laws[active];
     const labels = mine && ratios.length ? [["rms", "RMS"], ["peak", "peak"]].map(([name, text]) => ({ at: [ratios.at(-1), mine[name].at(-1) ?? 0], text, anchor: "end", up: 7 })) : [];
@@ -309,15 +289,15 @@ export class View {
       y: { name: "torque at the motor, N m", range: spanOf(shown) },
       lines, labels, marks,
       handles: [{ key: "ratio", at: [ratio, value], along: "x", low: 0.1, high: 1000, step: Number((low / 200).toPrecision(1)), label: "Ratio of the gear", text: `ratio ${number(ratio, "", 4)}, ${of === "peak" ? "peak" : "RMS"} torque ${number(value, "", 4)} N m`, name: `law-${active}` }],
-      told: `Torque at the motor over the ratio of the gear; at ${number(ratio, "", 4)} it is ${number(value, "", 4)} N m. ${this.#over?.words ?? ""}`,
+      told: `Torque at the motor over the ratio of the gear; at ${number(ratio, "", 4)} it is ${number(value, "", 4)} N m. ${over?.words ?? ""}`,
     };
   }
 
-  #moved(key, value) {
-    if (value === null) return this.#study.rest();
-    if (key === "ratio") return changeAll(this.#study, "ratio", (axis) => (axis.drive.ratio = value));
+  function moved(key, value) {
+    if (value === null) return study.rest();
+    if (key === "ratio") return changeAll(study, "ratio", (axis) => (axis.drive.ratio = value));
     const [name, corner] = key.split(" ");
-    return changeAll(this.#study, key, ({ drive }) => {
+    return changeAll(study, key, ({ drive }) => {
       if (corner !== undefined) drive.motor.curve[Number(corner)][1] = `${value} N m`;
       else drive.motor[name] = `${value} ${name === "greatest_speed" ? "rpm" : "N m"}`;
     });
@@ -325,22 +305,24 @@ export class View {
 
   // --- the cycle as it runs ---
 
-  #playing() {
-    const { cursor } = this.#curves;
+  function playing() {
+    const { cursor } = curves;
     const reading = html("span", { class: "reading quiet" });
     const show = (time) => {
-      const drawing = this.#answer?.drawing;
+      const drawing = current?.drawing;
       if (!drawing) return;
       const share = Math.min(1, Math.max(0, time / drawing.duration));
-      this.#linkage.at(share);
+      linkage.at(share);
       const input = drawing.input[Math.round(share * (drawing.input.length - 1))];
       reading.textContent = `${Math.round(time)} ms · ${written({ value: input, unit: drawing.axis === "angle" ? "deg" : "mm", digits: 4 })}`;
     };
-    this.#still = () => show(cursor.at ?? 0);
+    still = () => show(cursor.at ?? 0);
     cursor.watch((time) => time !== null && show(time));
-    new Run(this.#at.turning, "Time in the cycle, thousandths", cursor, { text: "Play", end: () => this.#answer?.drawing?.duration ?? 1, steps: 1000, seconds: SLOW, spoken: () => reading.textContent });
-    this.#at.turning.append(reading);
+    createRun(at.turning, "Time in the cycle, thousandths", cursor, { text: "Play", end: () => current?.drawing?.duration ?? 1, steps: 1000, seconds: SLOW, spoken: () => reading.textContent });
+    at.turning.append(reading);
   }
+
+  return { files, moves: true, drawings: "#machine-curves svg", request, show };
 }
 
 /** What laws are found for, without the numbers of the machine and of its motion. */

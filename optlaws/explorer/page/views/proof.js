@@ -64,28 +64,27 @@ function show({ results = [], seconds, error = results.length ? null : "nothing 
   done = null;
 }
 
-export class View {
-  files = [];
-
-  constructor(root) {
-    const chooser = html("input", { type: "file", accept: ".json,application/json", "aria-label": "File with a proof", onchange: () => chooser.files.length && this.dropped(chooser.files[0]) });
-    root.append(
-      html("section", { class: "panel", "aria-label": "The file to check" },
-        html("p", {}, html("strong", { text: "A solution, a table of laws or a certificate (JSON): choose it, or drop it anywhere." })),
-        html("p", {}, chooser), html("p", { class: "quiet", text: ABOUT }), offline),
-      verdict, claims,
-    );
-  }
+export function createView(root) {
+  const files = [];
+  const chooser = html("input", { type: "file", accept: ".json,application/json", "aria-label": "File with a proof", onchange: () => chooser.files.length && dropped(chooser.files[0]) });
+  root.append(
+    html("section", { class: "panel", "aria-label": "The file to check" },
+      html("p", {}, html("strong", { text: "A solution, a table of laws or a certificate (JSON): choose it, or drop it anywhere." })),
+      html("p", {}, chooser), html("p", { class: "quiet", text: ABOUT }), offline),
+    verdict, claims,
+  );
 
   /** Files of proofs are checked here; others are opened. */
-  async dropped(file) {
+  async function dropped(file) {
     if (!file.name.toLowerCase().endsWith(".json")) return false;
     check({ name: file.name, text: await file.text() });
     return true;
   }
 
-  show() {
+  function show() {
     if (waiting) check(waiting);
     waiting = null;
   }
+
+  return { files, dropped, show };
 }
