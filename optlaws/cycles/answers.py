@@ -40,8 +40,9 @@ if TYPE_CHECKING:
 PlotOver = Literal["time", "speed"]
 T = TypeVar("T")
 _STRICTER = (
-    "The gear has losses and a load: for a braking motor the search minimises an upper bound of the torque, that of "
-    "power flowing back through the gear; the lower bound has a separate proof, for all laws that never turn back."
+    "The gear has losses and carries a load. Where the motor brakes, the search counts the torque as if all power "
+    "flowed back through the gear, which is never less than the torque itself. The lower bound is proven without this, "
+    "for all laws that never turn back."
 )
 
 

@@ -538,10 +538,10 @@ class CamResult:
             Row("preload", spring.preload, force),
             Row(f"{greatest}, any speed", spring.greatest, "N" if contact else force),
             Row(f"lower bound of the {sought}", spring.lower_bound, stiffness if sought == "stiffness" else force),
-            Row("least force left along the follower's way", spring.margin, force),
+            Row("least reserve of the spring force", spring.margin, force),
         ]
         rows = [rows[0], *(row._replace(value=chop(row.value, spring.greatest, FORCE_ROUNDING)) for row in rows[1:])]
-        rows.append(Row("it is left at", chop(spring.critical[0], TURN_DEG, FORCE_ROUNDING), "deg"))
+        rows.append(Row("reserve is least at", chop(spring.critical[0], TURN_DEG, FORCE_ROUNDING), "deg"))
         note = capital(f"{spring.remark}.") if spring.remark else ""
         return Section("Spring", rows, data={"spring": spring.to_dict()}, note=note, digits=DIGITS)
 

@@ -105,6 +105,7 @@ def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) ->
             color=colour,
             alpha=0.15,
             linewidth=0,
+            label="between bound and law",
         )
     else:
         below = np.maximum(lower, foot)

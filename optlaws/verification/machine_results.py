@@ -343,11 +343,11 @@ def _bound(overlap: Any) -> Claim:
 
 
 def _binding(overlap: Any) -> Claim:
-    """The claim that what is named leaves no room and nothing else does, at the instants of the file.
+    """The claim that what is named binds and nothing else does, at the instants of the file.
 
     What leaves about as much as counts as none may be named or not.
     """
-    name, stated = "what leaves no room", set(overlap.binding)
+    name, stated = "what binds", set(overlap.binding)
     try:
         surely, hardly = (set(overlap.bound_by(share)) for share in (0.5, 2.0))
     except OptlawsError as error:

@@ -25,7 +25,7 @@ def test_an_overlap_is_read_again_and_partly_checked(goal: str, tmp_path: Path) 
     assert [claim.name for claim in verification.unchecked] == [
         f"the {goal}",
         "lower bound over all instants",
-        "what leaves no room",
+        "what binds",
     ]
     file = tmp_path / "overlap.json"
     file.write_text(best.to_json(), "utf-8")

@@ -103,12 +103,16 @@ def _unchecked(name: str, why: str, claims: Sequence[Claim] = ()) -> Verificatio
 
 
 def _in_words(name: str, verification: Verification, *, whole: bool) -> str:
-    word = "not proven" if not verification.proven else "proven" if verification.claims else "not checked"
-    if word == "proven" and verification.unchecked:
-        word = f"proven, but {_claims(len(verification.unchecked))} not checked"
     if whole:
+        word = "not proven" if not verification.proven else "proven" if verification.claims else "not checked"
+        if word == "proven" and verification.unchecked:
+            word = f"proven, but {_claims(len(verification.unchecked))} not checked"
         return f"{name}: {word}\n{verification}\n"
     bound = "" if verification.bound is None else f", lower bound {verification.bound!r}"
     gap = "" if verification.gap is None else f", gap at most {verification.gap:.1e}"
     doubtful = [claim for claim in (*verification.claims, *verification.unchecked) if not claim.proven]
-    return "\n".join([f"{name}: {word}, {len(verification.claims)} claims{bound}{gap}", *map(str, doubtful)])
+    proven = sum(claim.proven for claim in verification.claims)
+    counts = [(proven, "proven"), (len(verification.claims) - proven, "not proven")]
+    counts.append((len(verification.unchecked), "computed again in doubles only"))
+    words = ", ".join(f"{_claims(count)} {word}" for count, word in counts if count)
+    return "\n".join([f"{name}: {words or 'no claim'}{bound}{gap}", *map(str, doubtful)])

@@ -456,14 +456,14 @@ class Overlap(AxesAnswers, Declared, title="axes that overlap"):
     )
     lower_bound: float = entry(
         Number(above=0.0),
-        "No instants and durations of the laws that the moves of `axes` have give less, in the order of the segments, "
-        "with all axes at rest when the cycle begins and each move of an axis around one rest of the other axis. Other "
-        "laws may have less.",
+        "By linear programs in doubles: no instants and durations of the laws that the moves of `axes` have give less, "
+        "in the order of the segments, with all axes at rest when the cycle begins and each move of an axis around one "
+        "rest of the other axis. Other laws may have less.",
     )
     of: tuple[str, ...] = entry(Listed(Text()), "The axes whose moves may take other times.")
     binding: tuple[str, ...] = entry(
         Listed(Text()),
-        "What leaves no room where the objective is least: limits of moves, dwells and interlocks, by their names.",
+        "What binds where the objective is least: limits of moves, dwells and interlocks, by their names.",
     )
     axes: Axes = entry(
         ReadBy(_axes, "axes", _stored), "The machine with its new durations; given laws and strokes are those it had."
@@ -527,16 +527,18 @@ class Overlap(AxesAnswers, Declared, title="axes that overlap"):
         return of_laws.unit * float(unknowns[-2])
 
     def summary(self) -> Summary:
-        """Status, objective and bound, the gain, and what leaves no room."""
+        """Status, objective and bound, the gain, and what binds."""
         what, unit, gain = "greatest acceleration, as a share of the given one", "", "reduction by the factor"
         if self.goal == "period":
             what, unit, gain = "least period", "s", "speed, as a multiple of that before the overlap"
         values = {
             what: (self.objective, unit),
-            "proven lower bound": (self.lower_bound, unit),
+            "lower bound": (self.lower_bound, unit),
             gain: (self.gain, ""),
         }
-        rows = [*(Row(name, *value) for name, value in values.items()), best_possible_row(None, self.objective)]
+        laws = "for these laws, by linear programs in doubles"
+        rows = [Row(name, *value, note=laws if name == "lower bound" else "") for name, value in values.items()]
+        rows = [*rows, best_possible_row(None, self.objective)]
         if self.without_dwells is not None:
             may = 'of dwells that may be shorter give least = "0 s"'
             rows.append(Row("least period without these dwells", self.without_dwells, unit, note=may))
@@ -591,7 +593,7 @@ class Overlap(AxesAnswers, Declared, title="axes that overlap"):
         return max(now[name] / self.given[name].specification.unchecked().peak(2) for name in self.of)
 
     def bound_by(self, share: float = 1.0) -> tuple[str, ...]:
-        """What leaves no room at the instants of the axes, to a share of what counts as none."""
+        """What binds at the instants of the axes: what leaves no time, to a share of what counts as none."""
         from optlaws.cycles.axes.overlapping import program
 
         times = {name: [time for time, _ in self._moves(name)] for name in self}

@@ -523,7 +523,7 @@ class Overlapping:
         return {name: [self.unit * float(time) for time in unknowns[slice(*end)]] for name, end in ends.items()}
 
     def binding(self, durations: Times, period: float, share: float) -> tuple[str, ...]:
-        """What leaves no room, to a share of what counts as none: limits of moves, dwells and interlocks, by names.
+        """What leaves no time, to a share of what counts as none: limits of moves, dwells and interlocks, by names.
 
         It is a matter of the instants alone: an interlock leaves what its most favourable option does, at the place of
         the segment where that is least.
