@@ -192,3 +192,21 @@ def test_a_drive_begins_with_nothing_worse_than_by_modified_sine(capsys: Capture
     assert {"torque", "rms torque", "power", "energy", "velocity"} <= gains.keys()
     assert max(gains.values()) <= 0.0
     assert min(gains["rms torque"], gains["power"], gains["energy"]) < -1.0
+
+
+@pytest.mark.parametrize(
+    "numbers", ["--stroke 40mm --rise 110deg --return 110deg", "--stroke 10mm --rise 90deg --return 90deg"]
+)
+def test_a_cam_begins_with_less_torque_at_its_shaft_than_by_modified_sine(numbers: str, capsys: Capture) -> None:
+    given = [*shlex.split(numbers), "--speed", "180rpm", "--mass", "3kg"]
+    assert exit_code(["new", "cam", "a.toml", *given]) == 0
+    assert exit_code(["run", "a.toml"]) == 0
+    page = capsys.readouterr().out
+    assert "The follower stays on the cam." in page
+    rows = re.findall(r"(?m)^\| ([\w ']+?) +\| [\d.]+ +\| [\d.]+ +\| (same|[-+][\d.]+) ", page)
+    gains = {name: 0.0 if gain == "same" else float(gain) for name, gain in rows}
+    paid = gains.pop("greatest contact force")  # what the lower torque costs
+    assert 0.0 < paid < 5.0
+    assert max(gains.values()) <= 0.0
+    assert gains["peak torque at the shaft"] < -12.0
+    assert gains["least prime circle"] <= 0.0

@@ -12,7 +12,12 @@ from shlex import quote
 from textwrap import fill
 from typing import Any
 
+from optlaws.cams.disc import DiscCam
+from optlaws.cams.followers.rollers import TranslatingRoller
+from optlaws.cams.springs_and_flywheels import least_spring
 from optlaws.cycles.axes.interlock import After
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.specification.segments import Dwell, Return, Rise
 from optlaws.entries.declared import Declared
 from optlaws.entries.reference import sentences
 from optlaws.entries.value_types import Measured, Number, Whole
@@ -30,7 +35,7 @@ from optlaws.mechanisms.drives.motor import Motor
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.linkages.mechanism_kinds import Loads
 from optlaws.mechanisms.linkages.plane_linkages import SliderCrank
-from optlaws.motion.quantities import DIMENSIONS, either, in_small_units, quantity
+from optlaws.motion.quantities import DIMENSIONS, Exact, either, in_small_units, quantity
 from optlaws.studies.problem_entries import problem
 from optlaws.studies.specification import StudyFile, read_study
 
@@ -41,6 +46,8 @@ Answers = dict[str, str | None]
 _PLACE = re.compile(r"\$\{([\w-]+)(?:\|([^}]*))?\}")
 _FOLDER = Path(__file__).parent
 _DIGITS = 5
+_SPARE = 0.25  # of the greatest inertia force: so much a spring presses more than it must
+_PRIME = 10.0  # strokes: a prime circle on which every motion has a cam
 #: velocity, acceleration and jerk of an axis that slides, and of one that turns
 _LIMITS = ("1.5 m/s", "12 m/s^2", "600 m/s^3"), ("10 rad/s", "100 rad/s^2", "5000 rad/s^3")
 
@@ -161,13 +168,28 @@ def _peaks_of_usual(far: tuple[str, float], duration: float) -> dict[str, str]:
 
 
 def _of_cam(answers: Answers) -> Answers:
-    """The peaks of modified sine as limits; with a mass the power is least, and with it the torque at the shaft."""
+    """The peaks of modified sine as limits; with a mass its spring, and the power is least, the torque at the shaft."""
     quantity(answers["stroke"], "length", "--stroke")
     usual, massive = _usual_of_cycle(answers), answers["mass"] is not None
     limits: Answers = {name: answers[name] or usual[name] for name in DERIVATIVES}
     if not massive:  # it is what is least
         limits["acceleration"] = answers["acceleration"] or None
-    return _of_cycle(answers) | limits | {"minimise": "power" if massive else "acceleration"}
+    known = _of_cycle(answers) | limits | {"minimise": "power" if massive else "acceleration"}
+    return known | (_spring_of_usual(answers) if massive else dict.fromkeys(("stiffness", "preload", "force", "width")))
+
+
+def _spring_of_usual(answers: Answers) -> Answers:
+    """The least spring with which modified sine stays on the cam, with a share of the inertia force to spare."""
+    rise, dwell, back = (str(answers[name]) for name in ("rise", "dwell", "return"))
+    moves = [Rise(str(answers["stroke"]), rise, law=USUAL), Dwell(dwell), Return(duration=back, law=USUAL), Dwell()]
+    cycle, drive = Cycle(moves, speed=answers["speed"]), {"mass": answers["mass"]}
+    spare = _at_least(_SPARE * cycle.peak(2) * quantity(answers["mass"], "mass", "--mass"))
+    follower = TranslatingRoller(str(answers["roller"]))
+    cam = DiscCam(cycle, Exact(_PRIME * cycle.peak(0), "m"), follower)  # no radius changes the force along the way
+    speeds = ("0 rpm", str(answers["speed"]))
+    spring = least_spring(cam, drive=drive, speeds=speeds, force=f"{spare} N")
+    stiffness, preload = f"{_at_least(spring.stiffness)} N/m", f"{_at_least(spring.preload)} N"
+    return {"stiffness": stiffness, "preload": preload, "force": f"{spare} N", "width": "20 mm"}
 
 
 def _of_drive(answers: Answers) -> Answers:
