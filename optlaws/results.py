@@ -91,9 +91,10 @@ class Page:
         self._parts.append(tables.to_markdown(headings, rows, digits=digits))
         return self
 
-    def facts(self, facts: Iterable[Row], *, digits: int = 9, places: str = "") -> Page:
+    def facts(self, facts: Iterable[Row], *, digits: int = 6, places: str = "") -> Page:
         """A table of facts; with their places in a unit if it is given, and with notes where there are some."""
-        rows = [(row.name, row.text(digits), row.unit, row.place, row.note) for row in facts]
+        shown = (row.on_page() for row in facts)
+        rows = [(row.name, row.text(digits), row.unit, row.place, row.note) for row in shown]
         columns = [0, 1, 2, *([3] if places else []), *([4] if any(row[4] for row in rows) else [])]
         headings = ("what", "value", "unit", f"at, {places}", "note")
         return self.table([headings[i] for i in columns], [[row[i] for i in columns] for row in rows], digits=digits)

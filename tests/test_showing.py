@@ -319,7 +319,7 @@ def test_a_section_is_a_part_of_a_page_and_a_list_of_sentences() -> None:
     page, sentences = str(Page("a result").section(section)), fact_sentences(section.facts)
     for row, words in zip(section.facts, sentences, strict=True):
         assert f"| {row.name} " in page
-        assert words.startswith(f"{row.name} {row.value[0]:.7g} {row.unit}")
+        assert words.startswith(f"{row.name} {row.value[0]:.6g} {row.unit}")
         assert words.endswith("deg")
     assert page.index(section.text[:20]) < page.index("| what")
     assert str(Page("a result").section(Section())) == str(Page("a result"))

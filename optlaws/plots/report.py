@@ -12,6 +12,7 @@ import numpy as np
 
 from optlaws.plots.style import BLUES, GREY, WARM, one_below_the_other, rendered
 from optlaws.shown.showing import cell, table
+from optlaws.shown.summary import Summary
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -87,12 +88,13 @@ def set_range(axes: Axes, panels: Sequence[Panel]) -> None:
 
 def printable_page(title: object, report: Report, notes: str = "") -> str:
     """A report as a file of HTML by itself, to be read anywhere and printed: facts, tables, pictures of its panels."""
-    tables = [table(*each) for each in report.tables]
+    headings, *rows = Summary((row.on_page() for row in report.facts), report.facts.at).cells(digits=6)
+    tables = [table(headings, rows), *(table(*each) for each in report.tables)]
     grouped = groupby(report.panels, lambda panel: panel.across)
     pictures = [_picture(list(panels), report.segments) for _, panels in grouped]
     head = f'<meta charset="utf-8"><title>{cell(title)}</title><style>{_PRINTED}</style>'
     lines = "".join(f"<p>{cell(line)}</p>" for line in notes.splitlines())
-    body = "".join([f"<h1>{cell(title)}</h1>{lines}", report.facts._repr_html_(), *tables, *pictures])
+    body = "".join([f"<h1>{cell(title)}</h1>{lines}", *tables, *pictures])
     return f'<!doctype html>\n<html lang="en"><head>{head}</head><body>{body}</body></html>\n'
 
 

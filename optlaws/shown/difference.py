@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import degrees, isfinite
+from math import isfinite
 from typing import Any, NamedTuple
 
 from optlaws.numbers import bounded
 from optlaws.shown.report import ReportTable, Section
-from optlaws.shown.summary import Row
+from optlaws.shown.summary import PAGE_UNITS, Row
 
-#: units in which pages show velocities, and how many of each are one of SI: lengths and angles are in mm and degrees
-_SHOWN = {"m/s": ("mm/s", 1e3), "rad/s": ("deg/s", degrees(1.0))}
 _REMEDY = "give them a higher degree, or wider limits"
 _SAME = 5e-4  # of a value: a difference below it is no whole tenth of a per cent
 _FAR = 2.0  # times the usual value: what is above is remarked
@@ -157,7 +155,7 @@ class Differences:
 
 def _in_shown_unit(each: Difference) -> Difference:
     """A difference in the unit in which pages show its dimension."""
-    unit, factor = _SHOWN.get(each.unit, (each.unit, 1.0))
+    unit, factor = PAGE_UNITS.get(each.unit, (each.unit, 1.0))
     usual, chosen = (None if value is None else factor * value for value in (each.usual, each.chosen))
     return each._replace(unit=unit, usual=usual, chosen=chosen)
 

@@ -3,7 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from math import degrees
 from typing import Any, NamedTuple, Self
+
+#: units in which pages show lengths, angles and velocities, and how many of each are one of SI
+PAGE_UNITS = {
+    "m": ("mm", 1e3),
+    "m/s": ("mm/s", 1e3),
+    "rad": ("deg", degrees(1.0)),
+    "rad/s": ("deg/s", degrees(1.0)),
+}
 
 
 class Row(NamedTuple):
@@ -46,6 +55,20 @@ class Row(NamedTuple):
             return self.value or ""
         ends = self.value if isinstance(self.value, tuple) else (self.value,)
         return " to ".join(dict.fromkeys(f"{end:.{digits}g}" for end in ends))
+
+    def on_page(self) -> Row:
+        """The row in the unit in which pages show its dimension.
+
+        Examples
+        --------
+        >>> Row("velocity", 0.616, "m/s").on_page(), Row("C", 5.5).on_page().unit
+        (Row(name='velocity', value=616.0, unit='mm/s', place=None, note=''), '')
+        """
+        if self.unit not in PAGE_UNITS or isinstance(self.value, str | None):
+            return self
+        unit, factor = PAGE_UNITS[self.unit]
+        ends = tuple(factor * end for end in (self.value if isinstance(self.value, tuple) else (self.value,)))
+        return self._replace(unit=unit, value=ends if isinstance(self.value, tuple) else ends[0])
 
 
 class Summary(tuple[Row, ...]):  # noqa: SLOT001 - what places are is kept beside the rows

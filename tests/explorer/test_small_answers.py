@@ -127,7 +127,7 @@ def test_examples_are_answered() -> None:
     axes = axes_view.example()
     assert axes_view.clearances(CycleRequest(study=axes))["trust"]["word"] == "interlocks clear"
     gained = axes_view.together(CycleRequest(study=axes | {"overlap": {"goal": "acceleration", "of": ["die"]}}))
-    assert gained["facts"][1] == "greatest acceleration, as a share of the given one 0.1938937"
+    assert gained["facts"][1] == "greatest acceleration, as a share of the given one 0.193894"
     facts = cam_view.sizes(CycleRequest(study=cam_view.example()))["facts"]
     least = next(str(fact) for fact in facts if str(fact).startswith("least prime circle, by"))
     assert least == "least prime circle, by the pressure angle 58.608 mm at 264.38 deg"

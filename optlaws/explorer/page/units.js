@@ -7,9 +7,11 @@ const KEY = "optlaws-units";
 const INCH = 25.4;
 const DEGREE = Math.PI / 180;
 
-/** For each choice but the usual one: the unit that takes the place of another, and what a number is multiplied by. */
+/** For each choice: the unit that takes the place of another, and what a number is multiplied by. */
 const SWITCHED = {
-  in: { mm: ["in", 1 / INCH], "mm/s": ["in/s", 1 / INCH], "mm/s²": ["in/s²", 1 / INCH], "m/s": ["in/s", 1000 / INCH], "m/s²": ["in/s²", 1000 / INCH], "m/s³": ["in/s³", 1000 / INCH] },
+  mm: { m: ["mm", 1000], "m/s": ["mm/s", 1000] },
+  deg: { rad: ["deg", 1 / DEGREE], "rad/s": ["deg/s", 1 / DEGREE] },
+  in: { m: ["in", 1000 / INCH], mm: ["in", 1 / INCH], "mm/s": ["in/s", 1 / INCH], "mm/s²": ["in/s²", 1 / INCH], "m/s": ["in/s", 1000 / INCH], "m/s²": ["in/s²", 1000 / INCH], "m/s³": ["in/s³", 1000 / INCH] },
   rad: { deg: ["rad", DEGREE], "deg/s": ["rad/s", DEGREE], "deg/s²": ["rad/s²", DEGREE], "deg/s³": ["rad/s³", DEGREE] },
   "1/min": { rpm: ["1/min", 1] },
 };

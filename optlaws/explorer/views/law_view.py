@@ -130,7 +130,7 @@ def shown(result: MotionLaw | Solution) -> dict[str, Any]:
     return {"constants": constants, "panels": panels}
 
 
-def digits(number: float, count: int = 7) -> str:
+def digits(number: float, count: int = 6) -> str:
     """A number as the page prints it."""
     if bounded(number) is None:
         return "−∞" if number < 0.0 else "∞"

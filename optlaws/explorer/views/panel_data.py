@@ -33,7 +33,7 @@ def drawn(values: Array, decimals: int = _DRAWN) -> list[float | None]:
     return _rounded(values, _decimals([values], decimals))
 
 
-def fact_sentences(facts: Iterable[Row], digits: int = 7) -> list[Sentence]:
+def fact_sentences(facts: Iterable[Row], digits: int = 6) -> list[Sentence]:
     """Facts in words: the name of each, its value or both its ends, where it is, which is in degrees, and its note."""
     sentences = []
     for row in facts:

@@ -146,8 +146,8 @@ export function createView(root, study, { move, space, examples }) {
       const now = current?.time ?? least;
       slide.value = Math.round((1000 * Math.log(now / least)) / Math.log(longest / least)) || 0;
       slide.setAttribute("aria-valuetext", `${number(1000 * now, "", 5)} ms, ${number(60 / now, "", 5)} a minute; the least is ${current?.least?.text ?? ""} ms`);
-      if (document.activeElement !== time) time.value = Number((1000 * now).toPrecision(7));
-      if (document.activeElement !== speed) speed.value = Number((60 / now).toPrecision(7));
+      if (document.activeElement !== time) time.value = Number((1000 * now).toPrecision(6));
+      if (document.activeElement !== speed) speed.value = Number((60 / now).toPrecision(6));
     };
   }
 
