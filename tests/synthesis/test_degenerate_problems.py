@@ -211,7 +211,7 @@ def test_a_degenerate_optimum_is_proven(name: str) -> None:
     assert broken(problem, solution.law) == []
     if least is not None:
         assert solution.objective == pytest.approx(least, abs=1e-9)
-    if problem.convex and problem.order > 1:
+    if problem.convex:
         assert verify(solution.to_dict()).proven
 
 

@@ -309,7 +309,7 @@ export class Rows {
     return parts;
   }
 
-  /* The integral of the derivative times a polynomial on each piece, over that polynomial's norm: at most the norm. */
+  /* The integral of the derivative times a polynomial on each piece, whose norm is at most 1: at most the norm. */
   #mean(name, direction) {
     const { laws } = this;
     const nu = MEANS[name];
@@ -335,8 +335,8 @@ export class Rows {
         square = square.plus(exact(factor).times(exact(factor)).times(length).over(whole(2 * degree + 1)));
       }
     });
-    const norm = square.rootAbove();
-    return norm.sign ? this.#below(totals.map((total) => total.over(norm)), ONE, name) : null;
+    const norm = greatest(square.rootAbove(), ONE);
+    return this.#below(totals.map((total) => total.over(norm)), ONE, name);
   }
 
   #fromRest(name, sign, k) {

@@ -307,7 +307,7 @@ class ExactRows:
         """A direction times the values at Gauss points, each by the root of its weight: at most the norm (Cauchy)."""
         direction = [ball(value) for value in contact.direction]
         rule = self.space.gauss(nu, len(direction))
-        length = sum((component * component for component in direction), arb(0)).sqrt()
+        length = sum((component * component for component in direction), arb(0)).sqrt().max(arb(1))
         weights = [component * weight.sqrt() / length for component, (_, weight) in zip(direction, rule, strict=True)]
         columns = zip(*(column for column, _ in rule), strict=True)
         return limit.row(sum(map(mul, weights, column), arb(0)) for column in columns)
