@@ -47,6 +47,7 @@ _PLACE = re.compile(r"\$\{([\w-]+)(?:\|([^}]*))?\}")
 _FOLDER = Path(__file__).parent
 _DIGITS = 5
 _SPARE = 0.25  # of the greatest inertia force: so much a spring presses more than it must
+_STIFFER = 1.2  # times the least stiffness: with it the contact force is greatest above, where the follower rests
 _PRIME = 10.0  # strokes: a prime circle on which every motion has a cam
 #: velocity, acceleration and jerk of an axis that slides, and of one that turns
 _LIMITS = ("1.5 m/s", "12 m/s^2", "600 m/s^3"), ("10 rad/s", "100 rad/s^2", "5000 rad/s^3")
@@ -179,7 +180,7 @@ def _of_cam(answers: Answers) -> Answers:
 
 
 def _spring_of_usual(answers: Answers) -> Answers:
-    """The least spring with which modified sine stays on the cam, with a share of the inertia force to spare."""
+    """A spring with which modified sine stays on the cam, stiffer than the least, with some force to spare."""
     rise, dwell, back = (str(answers[name]) for name in ("rise", "dwell", "return"))
     moves = [Rise(str(answers["stroke"]), rise, law=USUAL), Dwell(dwell), Return(duration=back, law=USUAL), Dwell()]
     cycle, drive = Cycle(moves, speed=answers["speed"]), {"mass": answers["mass"]}
@@ -188,7 +189,7 @@ def _spring_of_usual(answers: Answers) -> Answers:
     cam = DiscCam(cycle, Exact(_PRIME * cycle.peak(0), "m"), follower)  # no radius changes the force along the way
     speeds = ("0 rpm", str(answers["speed"]))
     spring = least_spring(cam, drive=drive, speeds=speeds, force=f"{spare} N")
-    stiffness, preload = f"{_at_least(spring.stiffness)} N/m", f"{_at_least(spring.preload)} N"
+    stiffness, preload = f"{_at_least(_STIFFER * spring.stiffness)} N/m", f"{_at_least(spring.preload)} N"
     return {"stiffness": stiffness, "preload": preload, "force": f"{spare} N", "width": "20 mm"}
 
 

@@ -1,6 +1,7 @@
 """Problem files of the job "cam" beside the single disc cam: best laws, least prime circles, pairs, barrels."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -328,10 +329,6 @@ def test_the_cam_of_the_starter_is_nowhere_worse_than_the_one_with_the_usual_law
 ) -> None:
     numbers = {"stroke": "40mm", "rise": "110deg", "return": "110deg", "speed": "180rpm", **mass}
     text = STARTERS["cam"].text(numbers, tmp_path / "cam.toml").replace("animation = true", "")
-    spring = 'drive = { mass = "3 kg", stiffness = "1.95 N/mm", preload = "25 N" }'
-    text = text.replace('drive = { mass = "3 kg" }', spring)
-    if mass:
-        text = text.replace("\n[follower]", '\nforces = { width = "20 mm" }\n\n[follower]', 1)
     values = {each["name"]: each["change"] for each in told_of(tmp_path, text)["usual_law"]["values"]}
     assert next(iter(values)) == better[0]
     assert max(values[name] for name in better) < -0.05
@@ -342,6 +339,7 @@ def test_the_cam_of_the_starter_is_nowhere_worse_than_the_one_with_the_usual_law
 def test_a_page_says_that_modified_sine_is_better_in_the_objective(tmp_path: Path) -> None:
     numbers = {"stroke": "40mm", "rise": "110deg", "return": "110deg", "speed": "180rpm", "mass": "3 kg"}
     text = STARTERS["cam"].text(numbers, tmp_path / "cam.toml").replace("animation = true", "")
+    text = re.sub(r'(mass = "3 kg").* }', r"\1 }", text)
     page, _, _ = done(tmp_path, text.replace("degree = 15", "degree = 9"))
     (usual, chosen) = (float(cell) for cell in page.split("| peak power")[1].split("|")[1:3])
     remark = f"Modified sine has {100.0 * (1.0 - usual / chosen):.1f} % less peak power than these laws: "
