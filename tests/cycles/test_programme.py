@@ -204,6 +204,18 @@ def test_a_file_of_another_job_is_refused(capsys: pytest.CaptureFixture[str], tm
     assert "problem.toml" in capsys.readouterr().err
 
 
+def test_a_cycle_is_written_with_the_law_of_a_file_not_with_its_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is read in any folder, where the name would mean another file or none."""
+    (tmp_path / "law.json").write_text(catalogue["cycloidal"].law.to_json(), "utf-8")
+    monkeypatch.chdir(tmp_path)
+    moves = [Rise("35 mm", "0.1 s", law="law.json"), Return(law="cycloidal")]
+    written = Cycle(moves, period="0.3 s").to_json()
+    (tmp_path / "law.json").unlink()
+    assert Cycle.from_json(written).peak(2) == pytest.approx(2.0 * pi * 3.5, rel=1e-12)
+
+
 def test_half_segments_join_to_the_cam_of_others() -> None:
     """KU Leuven's cam of case KUL-18a: a rise and a return by halves, with the places that matcam wrote."""
     known = json.loads((ROOT / "tests" / "reference" / "published_cams.json").read_text("utf-8"))["KUL-18a"]

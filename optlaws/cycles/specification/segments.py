@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from optlaws.cycles.specification.limits import LIMITS_OF_SEGMENT
@@ -36,8 +37,19 @@ _HOW_LONG = (
     "An angle of the master or a time; of two it is free between them, and left out it is what is left of the cycle if "
     "one segment alone is free, else what is best."
 )
+
+
+class _LawName(Text):
+    """A law by its name, which is written by its plain data where it is that of a file."""
+
+    def plain(self, value: Any) -> Any:
+        from optlaws.laws.catalogue.reading import with_files
+
+        return with_files({"law": value}, Path())["law"]
+
+
 _LAW = Either(
-    Text(),
+    _LawName(),
     ReadBy(_read_law, "a `MotionLaw`", MotionLaw.to_dict, {"type": "object", "required": ["kind"]}),
     which=lambda value: int(not isinstance(value, str)),
 )
