@@ -14,4 +14,4 @@ rules = [
     After("die", "31 mm", of="table", above="99.35 mm", way="down"),
 ]
 machine = Axes({"table": {"segments": index, "advance": "100 mm"}, "die": die}, speed="60 rpm", interlocks=rules)
-machine.gentlest("die").axes.plot(what="timing")
+machine.least_acceleration("die").axes.plot(what="timing")

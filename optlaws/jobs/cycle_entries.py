@@ -190,7 +190,7 @@ class CycleProblemFile(ProblemFile, title="a problem file"):
         if self.overlap is None:
             return None
         with located(str(file)):
-            return axes.fastest() if self.period_sought else axes.gentlest(*self.overlap.of)
+            return axes.fastest() if self.period_sought else axes.least_acceleration(*self.overlap.of)
 
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, Axes]:

@@ -84,7 +84,7 @@ def test_what_is_drawn_and_proven_of_axes_is_the_library_s(served: Server, study
 
 def test_moves_are_put_together_as_the_library_does(served: Server) -> None:
     study = axes_view.example() | {"overlap": {"goal": "acceleration", "of": ["die"]}}
-    best = axes_of(study).gentlest("die")
+    best = axes_of(study).least_acceleration("die")
     made = served.ask("axes-together", {"study": study})
     assert f"{best.objective:.6g}" in made["facts"][1]
     again = axes_of(made["study"])

@@ -391,7 +391,7 @@ def drawn_axes(goal: str) -> Overlap:
     rule = Clearance("tool", over="slide", most=[("90 mm", "5 mm"), ("95 mm", "50 mm")])
     limits = {"acceleration": "20 m/s^2"} if goal == "period" else {}
     given = Axes({"slide": {"segments": slide, "limits": limits}, "tool": tool}, period="1 s", interlocks=[rule])
-    return given.fastest() if goal == "period" else given.gentlest("tool")
+    return given.fastest() if goal == "period" else given.least_acceleration("tool")
 
 
 def least_time_file(move: FastestMove) -> Format:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, replace
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Unpack
+from warnings import warn
 
 from optlaws.cycles.axes.interlock import INTERLOCKS, Interlock, LeastClearance
 from optlaws.cycles.axes.report import AxesReport, OverlapReport
@@ -326,7 +327,7 @@ class Axes(AxesAnswers, Declared, title="stored axes"):
         """
         return _overlapped(self, "period", tuple(self))
 
-    def gentlest(self, *of: str) -> Overlap:
+    def least_acceleration(self, *of: str) -> Overlap:
         """The least greatest acceleration in the same period: moves grow into the time that the interlocks leave.
 
         Laws that are given keep their shapes; a move without one takes the law of least acceleration within its limits
@@ -356,12 +357,17 @@ class Axes(AxesAnswers, Declared, title="stored axes"):
         ...     After("die", "31 mm", of="table", above="14.9 deg", way="down"),
         ... ]
         >>> axes = {"table": {"segments": index, "advance": "15 deg"}, "die": die}
-        >>> best = Axes(axes, period="1 s", interlocks=rules).gentlest("die")
+        >>> best = Axes(axes, period="1 s", interlocks=rules).least_acceleration("die")
         >>> best.status.value, round(best.objective, 6)
         ('optimal', 0.175878)
         """
         check_names(of, tuple(self), "axis")
         return _overlapped(self, "acceleration", of or tuple(self))
+
+    def gentlest(self, *of: str) -> Overlap:
+        """The result of `least_acceleration`, by its former name."""
+        warn("Axes.gentlest is called Axes.least_acceleration now", DeprecationWarning, stacklevel=2)
+        return self.least_acceleration(*of)
 
     @kept_property
     def instants(self) -> Overlapping:
@@ -625,7 +631,9 @@ def _overlapped(given: Axes, goal: Goal, longer: Sequence[str]) -> Overlap:
     """The axes of a machine with the best overlap for a goal; of the acceleration of some axes."""
     from optlaws.cycles.axes import overlapping
 
-    known = given.instants.shortest() if goal == "period" else overlapping.gentlest(given, given.rules, longer)
+    known = (
+        given.instants.shortest() if goal == "period" else overlapping.least_acceleration(given, given.rules, longer)
+    )
     of_laws, unknowns, bound = known
     period, times, cycles = of_laws.unit * float(unknowns[-2]), of_laws.durations(unknowns), dict[str, Cycle]()
     for plan in of_laws.plans:

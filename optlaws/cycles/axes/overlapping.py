@@ -48,7 +48,7 @@ _PLACE_WIDTH = 1e-9  # of a segment: how near a place comes to where instants ar
 _TIGHT_INSTANT = 1e-7  # of a period: what leaves no more binds
 
 #: how the moves of an axis find their laws and times
-Way = Literal["fastest", "gentlest", "kept"]
+Way = Literal["fastest", "least acceleration", "kept"]
 _NOTHING = Extent(0.0, 0.0)
 #: how names of what binds begin where it is a dwell
 DWELL = "dwell "
@@ -143,9 +143,9 @@ class AxisPlan:
 def planned(name: str, cycle: Cycle, way: Way, times: Sequence[float] | None) -> list[PlannedSegment]:
     """The segments of an axis, whose moves have laws of their own, each from rest to rest.
 
-    "fastest": moves with limits take the least time that these allow, others keep theirs. "gentlest": they have the
-    least acceleration in the times of all segments, or are the fastest without such, and may take longer. "kept": they
-    are as in the cycle.
+    "fastest": moves with limits take the least time that these allow, others keep theirs. "least acceleration": they
+    have the least acceleration in the times of all segments, or are the fastest without such, and may take longer.
+    "kept": they are as in the cycle.
 
     Raises
     ------
@@ -156,7 +156,7 @@ def planned(name: str, cycle: Cycle, way: Way, times: Sequence[float] | None) ->
     """
     with located(f"axis {name}"):
         objective = cycle.specification.in_si
-        if way == "gentlest":
+        if way == "least acceleration":
             objective = replace(objective, minimise="acceleration")
         if way == "fastest" and (objective.shares or objective.loaded):
             raise InputError(
@@ -183,7 +183,7 @@ def planned(name: str, cycle: Cycle, way: Way, times: Sequence[float] | None) ->
             law: Any = segment.law
             if moves_at(law, 0, 1):
                 raise _refused(stretch)
-            if way == "gentlest":
+            if way == "least acceleration":
                 # limits bind the laws in the times that are sought
                 share = law.peak(2).value * abs(stretch.displacement) / cycle.specification.unchecked().peak(2)
                 segment = replace(segment, effort=sqrt(share))
@@ -206,7 +206,7 @@ def _of_move(
         law = named_law(stretch.given.law, stretch.where)
     elif search.objective.of_load:
         raise _refused(stretch)
-    elif way == "gentlest" and times is not None:
+    elif way == "least acceleration" and times is not None:
         try:
             law = solve(slower(span, times[i] / span.duration), search.objective)[0].law
         except (InfeasibleProblem, SolverFailure):
@@ -214,13 +214,15 @@ def _of_move(
     known = search.fastest(span) if law is None else search.of_law(span, law)
     if not known.along:
         law = law or solve(span, search.objective)[0].law
-        fixed = _NOTHING if way == "gentlest" else _given(cycle, i)
-        return replace(segment, law=law, least=fixed, most=None if way == "gentlest" else fixed)
+        fixed = _NOTHING if way == "least acceleration" else _given(cycle, i)
+        return replace(segment, law=law, least=fixed, most=None if way == "least acceleration" else fixed)
     limit = word_of(known.binding[0].key, cycle.axis)
     if known.law is None or not known.scale < inf:
         raise InfeasibleProblem(f"{stretch.where}: its law has no finite {limit}, and so keeps no limit of it")
     least = Extent(0.0, known.needed)
-    return replace(segment, law=known.law, least=least, most=None if way == "gentlest" else least, binds=limit)
+    return replace(
+        segment, law=known.law, least=least, most=None if way == "least acceleration" else least, binds=limit
+    )
 
 
 def _given(cycle: Cycle, i: int) -> Extent:
@@ -556,10 +558,10 @@ class Overlapping:
 def program(
     cycles: Mapping[str, Cycle], rules: Sequence[Interlock], goal: str, longer: Sequence[str], times: Times
 ) -> Overlapping:
-    """The program of the instants of laws that are gentlest in some times, or of the fastest laws."""
+    """The program of the instants of laws of least acceleration in some times, or of the fastest laws."""
     first, plans, size = 0, dict[str, AxisPlan](), sum(len(cycle.programme.stretches) for cycle in cycles.values()) + 2
     for name, cycle in cycles.items():
-        way: Way = "fastest" if goal == "period" else "gentlest" if name in longer else "kept"
+        way: Way = "fastest" if goal == "period" else "least acceleration" if name in longer else "kept"
         plans[name] = AxisPlan(name, planned(name, cycle, way, times.get(name)), first, size)
         first += len(plans[name].segments)
     duration = next(iter(cycles.values())).duration
@@ -572,7 +574,7 @@ def program(
     return Overlapping(list(plans.values()), demands, None, _LONGEST * (duration + least), unit)
 
 
-def gentlest(
+def least_acceleration(
     cycles: Mapping[str, Cycle], rules: Sequence[Interlock], longer: Sequence[str]
 ) -> tuple[Overlapping, Array, float]:
     """The program, the instants and the bound of the least acceleration of some axes in the period that they have.

@@ -88,8 +88,8 @@ class Dwell(CycleSegment, kind="dwell"):
     duration: Quantity | Sequence[Quantity] | None = entry(_DURATION, _HOW_LONG, default=None, example="120 deg")
     least: Quantity | None = entry(
         Measured("angle", "time", least=0.0),
-        'What `Axes.fastest` and `Axes.gentlest` leave of it at least: "0 ms" of one that only waits. All of its '
-        "duration unless given, and nothing where the duration is left out.",
+        'What `Axes.fastest` and `Axes.least_acceleration` leave of it at least: "0 ms" of one that only waits. All of '
+        "its duration unless given, and nothing where the duration is left out.",
         default=None,
         kw_only=True,
         example="0 ms",
