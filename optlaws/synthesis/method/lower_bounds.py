@@ -41,7 +41,6 @@ _WORTHY = 0.2
 _FOLLOWED = 4
 _ROOM = 1e3
 _CROWD = 2  # contacts for each variable, of which one determines it
-_MIDDLE = 0.5
 
 
 def active_lower_bounds(model: Model, optimum: ActiveSet) -> list[ActiveSet]:
@@ -67,33 +66,7 @@ def active_lower_bounds(model: Model, optimum: ActiveSet) -> list[ActiveSet]:
         if reaches(way[0].law(way[1].x), constant, low)
         for state in active_lower_bounds(*way)
     ]
-    middle = placed_in_the_middle(model, optimum, constant)
-    if middle is not None:
-        led = [*active_lower_bounds(*middle), *led]
     return led or list(islice(between(model, optimum, constant, low), 1 if alone else None))
-
-
-def placed_in_the_middle(model: Model, plain: ActiveSet, constant: Functional) -> tuple[Model, ActiveSet] | None:
-    """The problem with its peak velocity at k = 1/2, with its optimum; None where it is not B that is bounded.
-
-    There it is convex, and one of the candidates.
-
-    The optimum without the lower bound is where a problem that is not convex begins.
-    """
-    problem = model.problem
-    if constant != B or problem.boundary is not None or problem.inflexion is not None:
-        return None
-    placed = model_of(replace(problem, inflexion=_MIDDLE))
-    optimum = solve(placed.program, start=None if problem.convex else _begun(model, placed, plain)).optimum
-    return None if optimum is None else (placed, optimum)
-
-
-def _begun(model: Model, placed: Model, plain: ActiveSet) -> Array:
-    start = np.full(placed.program.size, B.value(model.law(plain.x)))
-    start[: model.space.terms] = model.coordinates(plain.x)
-    for name, place in model.places.items():
-        start[placed.places[name]] = plain.x[place]
-    return start
 
 
 def active_lower_bounds_at(
