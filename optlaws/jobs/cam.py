@@ -60,6 +60,7 @@ from optlaws.cams.springs_and_flywheels import (
     least_spring,
 )
 from optlaws.cycles.cycle import Cycle, Plan
+from optlaws.cycles.optimisation.objectives import kind_of
 from optlaws.cycles.report import objective_unit
 from optlaws.cycles.specification.limits import LimitTaken
 from optlaws.cycles.specification.segments import OPTIMAL
@@ -347,6 +348,13 @@ class CamResult:
             *([f"Given laws: {'; '.join(given)}."] if given else []),
             *([f"Limits: {'; '.join(map(_rounded, plan.limits_taken))}."] if plan.limits_taken else []),
         ]
+        if self._needs_spring and plan.solutions and kind_of(plan.minimise)[0].is_driven:
+            spring, (force, stiffness) = self.least_spring, _SPRING_UNITS[self.cam.displacement.axis]
+            known.append(
+                f"The {plan.minimise} is without the spring below: to count it, give the drive the entries "
+                f'stiffness = "{spring.stiffness:.{DIGITS}g} {stiffness}" and preload = "{spring.preload:.{DIGITS}g} '
+                f'{force}".'
+            )
         if not rows and plan.solutions:
             least = f"least {plan.minimise}"
             rows = [Row(least, (plan.objective, plan.lower_bound), objective_unit(plan), note=plan.status.value)]

@@ -340,7 +340,11 @@ def test_a_page_says_that_modified_sine_is_better_in_the_objective(tmp_path: Pat
     numbers = {"stroke": "40mm", "rise": "110deg", "return": "110deg", "speed": "180rpm", "mass": "3 kg"}
     text = STARTERS["cam"].text(numbers, tmp_path / "cam.toml").replace("animation = true", "")
     text = re.sub(r'(mass = "3 kg").* }', r"\1 }", text)
-    page, _, _ = done(tmp_path, text.replace("degree = 15", "degree = 9"))
+    text += '[spring]\nspeeds = ["0 rpm", "180 rpm"]\n'
+    page, reply, _ = done(tmp_path, text.replace("degree = 15", "degree = 9"))
+    stiffness = f"{reply['spring']['stiffness']:.5g}"
+    assert "The power is without the spring below: to count it, give the drive the entries" in page
+    assert f'stiffness = "{stiffness} N/m"' in page
     (usual, chosen) = (float(cell) for cell in page.split("| peak power")[1].split("|")[1:3])
     remark = f"Modified sine has {100.0 * (1.0 - usual / chosen):.1f} % less peak power than these laws: "
     assert remark in page
