@@ -13,8 +13,6 @@ from tests.exports.samples import press
 from tests.internals.cycles import points_in, read_points
 from tests.internals.exports import FORMATS, Export
 
-#: formats of points alone, by which laws are known again
-EXACT = ("codesys-xy", "csv", "kas", "lenze", "rockwell-cam-extended", "rockwell-cam-profile", "sew", "twincat-table")
 #: what has no place for units
 BARE = ("kas", "sew", "technosoft")
 UNITS = [("360 deg", "mm"), ("6.283185307179586 rad", "in"), ("1 turn", "m"), (None, "mm")]
@@ -94,21 +92,28 @@ def test_derivatives_in_columns_are_what_runs_between_points(interpolation: Any,
     assert off < {"c1": 0.05, "quintic": 5e-3, "septic": 5e-3}[interpolation]
 
 
-@pytest.mark.sample(4)
-@pytest.mark.parametrize("name", EXACT)
-def test_laws_are_known_again_after_a_controller(name: str, tmp_path: Path) -> None:
-    made = exported(name)
-    file = tmp_path / "cam.txt"
-    file.write_text(made.text)
-    table = read_cycle_table(file)
-    assert [(part.kind, part.law) for part in table.stretches] == [
-        ("rise", "modified sine"),
-        ("dwell", None),
-        ("return", "modified sine"),
-        ("dwell", None),
-    ]
-    assert [part.stop for part in table.stretches] == pytest.approx([120.0, 210.0, 310.0, 360.0], abs=1e-9)
-    assert table.layout
+@pytest.mark.sample(6)
+@pytest.mark.parametrize("law", ["optimal", "modified sine"])
+@pytest.mark.parametrize("name", sorted(FORMATS))
+def test_every_format_comes_back_as_the_cycle_it_was(name: str, law: str, tmp_path: Path) -> None:
+    """Its dwells and moves, their ends and laws; the acceleration within its interval or what the controller runs."""
+    cycle = press(law)
+    made: Export = cycle.export(name, master="360 deg", unit="mm")
+    file = tmp_path / f"cam{FORMATS[name].extension}"
+    file.write_text(made.text, "utf-8")
+    units: dict[str, Any] = {**units_of(made)}
+    table = read_cycle_table(file, **units)
+    per, size = (1.0 / 1200.0, 1e3) if table.master == "s" else (1.0, 1.0)
+    assert [part.kind for part in table.stretches] == ["rise", "dwell", "return", "dwell"]
+    close = {"isg": 0.02, "technosoft": 0.02}.get(name, 1e-4)
+    assert [part.stop / per for part in table.stretches] == pytest.approx([120.0, 210.0, 310.0, 360.0], abs=close)
+    assert [size * part.stroke for part in table.moves] == pytest.approx([35.0, -35.0], abs=size * table.room + 1e-5)
+    if law == "modified sine":
+        assert [part.law for part in table.moves] == [law] * 2
+    read, x = table.cycle(speed=None if table.rate or table.master == "s" else "200 rpm"), np.linspace(0.0, 360.0, 721)
+    assert np.abs(read.at_angle(x) - cycle.at_angle(x)).max() <= 35e-7 + 1e-3 * size * table.room
+    peak, (low, high) = cycle.peak(2) * 1e3 / size / (1200.0 * per) ** 2, table.peaks[1]
+    assert (1.0 - 1e-4) * low <= peak <= (1.0 + 1e-4) * high < 1.02 * peak
 
 
 @pytest.mark.parametrize(("size", "length"), [(1e-12, 1e9), (1e9, 1e-9)])

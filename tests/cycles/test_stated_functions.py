@@ -1,14 +1,12 @@
 """Tables that state what runs between their points: read as these functions, from two points on."""
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from scipy.interpolate import BPoly
 
 from optlaws import InputError, MotionLaw, catalogue, read_cycle_table, read_law
-from tests.exports.samples import press
 from tests.internals.cli import exit_code
 from tests.internals.cycles import hermite, law_of_move, position, stretches_of_pieces
 
@@ -187,22 +185,6 @@ def test_a_polynomial_beside_a_line_takes_its_slope(tmp_path: Path) -> None:
         assert isinstance(last, MotionLaw)
         assert [first.b(0.0), first.b(1.0), last.b(1.0), first.c(1.0)] == pytest.approx([0.0, 1.0, 0.0, 0.0], abs=1e-9)
         assert third.b(0.0) * stretches[2].stroke / (stretches[2].stop - 180.0) == pytest.approx(1.0 / 3.0)
-
-
-@pytest.mark.sample(2)
-@pytest.mark.parametrize(
-    "name", ["codesys-xyva", "twincat-nc2", "siemens-points", "csv", "iec-st", "iec-st-real", "br-acp10"]
-)
-def test_functions_of_our_exports_come_back_as_the_cycle_they_were(name: str, tmp_path: Path) -> None:
-    options: dict[str, Any] = {"interpolation": "quintic", "points": 601} if name == "csv" else {}
-    made = press().export(name, master="360 deg", unit="mm", **options)
-    file = tmp_path / f"cam{made.format.extension}"
-    file.write_text(made.text)
-    table = read_cycle_table(file)
-    assert [(part.kind, part.law) for part in table.stretches] == [
-        ("rise", "modified sine"), ("dwell", None), ("return", "modified sine"), ("dwell", None),
-    ]  # fmt: skip
-    assert [part.stop for part in table.stretches] == pytest.approx([120.0, 210.0, 310.0, 360.0], abs=1e-9)
 
 
 def test_the_law_of_a_controller_is_that_which_runs(tmp_path: Path) -> None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 from math import log
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -37,6 +39,16 @@ _CANDIDATES = 160
 _SIMPLE = 4
 #: of a step: how near the ends of rests are looked for, in the end and in searches
 _FINE, _ROUGH = 0.02, 0.2
+#: degrees of one polynomial for a whole move, and how many derivatives it may have in common with the rests beside it
+_DEGREES, _CONTACTS = range(7, 20, 2), (3, 2)
+#: of a step: ends of rests beside one polynomial are no nearer; and how often they are moved at most
+_EXACT, _ENDS_MOVED = 1e-9, 40
+#: steps to which places are rounded where the rows allow it, in parts of a turn
+_ROUND = (1.0 / 36.0, 1.0 / 72.0, 1.0 / 360.0, 1.0 / 720.0, 1.0 / 3600.0)
+#: a master that is longer is no turn in radians or turns
+_RADIANS = 12.0
+#: by how much the sum of squares may grow for each place that is rounded
+AS_LIKELY = 4.0
 #: with more pieces the ends of rests are no longer looked for: the pieces begin to take part in the rests
 _ENDS_BY = 6
 
@@ -85,6 +97,10 @@ class CurveFit:
         Where it has jumps inside.
     squares, free, rows
         The sum of squares over the variance of the noise, the number of parameters, and that of rows.
+    ends, contact
+        The lines or rests beside it, and how many derivatives, with the position, it has in common with these.
+    pieces
+        About how many polynomials it has.
     """
 
     spline: BSpline
@@ -94,26 +110,32 @@ class CurveFit:
     free: int
     rows: int
     ends: tuple[End, End]
-    pieces: int = field(default=1)
+    pieces: int = 1
+    contact: int = 2
+
+    @property
+    def degree(self) -> int:
+        """The degree of its polynomials."""
+        return int(self.spline.k)
 
     @property
     def start(self) -> float:
         """The place where it begins."""
-        return float(self.spline.t[DEGREE])
+        return float(self.spline.t[self.degree])
 
     @property
     def stop(self) -> float:
         """The place where it ends."""
-        return float(self.spline.t[-DEGREE - 1])
+        return float(self.spline.t[-self.degree - 1])
 
     @property
     def breaks(self) -> Array:
         """Where its polynomials meet."""
-        return np.unique(self.spline.t[DEGREE : len(self.spline.t) - DEGREE])
+        return np.unique(self.spline.t[self.degree : len(self.spline.t) - self.degree])
 
     def moved(self, along: float, up: float) -> CurveFit:
         """The fit, moved along the master and up."""
-        spline = BSpline(self.spline.t + along, self.spline.c + up, DEGREE)
+        spline = BSpline(self.spline.t + along, self.spline.c + up, self.degree)
         joints = tuple(joint._replace(place=joint.place + along) for joint in self.joints)
         return replace(
             self, spline=spline, joints=joints, ends=(self.ends[0].moved(along, up), self.ends[1].moved(along, up))
@@ -130,7 +152,7 @@ class CurveFit:
 
     def values(self, places: Array, nu: int = 0) -> Array:
         """A derivative at places, by the master."""
-        return np.asarray(_basis(self.spline.t, places, nu) @ self.spline.c)
+        return np.asarray(_basis(self.spline.t, places, self.degree, nu) @ self.spline.c)
 
     def height(self, place: float) -> float:
         """The position at a place; where it leaves a line, that of the line to the last digit."""
@@ -141,14 +163,13 @@ class CurveFit:
 
     def deviation(self, places: Array, nu: int) -> Array:
         """Standard deviations of a derivative at places, for noise of the variance about it."""
-        rows = _basis(self.spline.t, places, nu) @ self.factor
+        rows = _basis(self.spline.t, places, self.degree, nu) @ self.factor
         return np.asarray(np.sqrt(max(self.variance, 1.0) * (rows**2).sum(axis=1)))
 
 
-def _basis(knots: Array, places: Array, nu: int = 0) -> Array:
+def _basis(knots: Array, places: Array, degree: int = DEGREE, nu: int = 0) -> Array:
     """B-splines or their derivatives at places, a row for each; of the right-hand side at a jump."""
-    inner, degree = knots, DEGREE
-    turned = np.eye(len(knots) - DEGREE - 1)
+    inner, turned = knots, np.eye(len(knots) - degree - 1)
     for _ in range(nu):
         spans = (inner[degree + 1 : -1] - inner[1 : -degree - 1])[:, None]
         turned = np.divide(degree * np.diff(turned, axis=0), spans, out=np.zeros_like(turned[1:]), where=spans > 0.0)
@@ -158,7 +179,7 @@ def _basis(knots: Array, places: Array, nu: int = 0) -> Array:
     return np.asarray(rows @ turned, dtype=np.float64) if nu else rows
 
 
-def _knots(start: float, stop: float, joints: Sequence[Joint], pieces: int) -> Array:
+def _knots(start: float, stop: float, joints: Sequence[Joint], pieces: int, degree: int = DEGREE) -> Array:
     """Knots of about as many pieces, even between joints."""
     ends = [start, *(joint.place for joint in joints), stop]
     inner: list[float] = []
@@ -166,51 +187,43 @@ def _knots(start: float, stop: float, joints: Sequence[Joint], pieces: int) -> A
         count = max(1, round(pieces * (high - low) / (stop - start)))
         inner += np.linspace(low, high, count + 1)[1:-1].tolist()
         if i < len(joints):
-            inner += [high] * (DEGREE - joints[i].continuity)
-    return np.array([*[start] * (DEGREE + 1), *inner, *[stop] * (DEGREE + 1)])
+            inner += [high] * (degree - joints[i].continuity)
+    return np.array([*[start] * (degree + 1), *inner, *[stop] * (degree + 1)])
 
 
+@dataclass(frozen=True, eq=False)
 class _Fitter:
     """Fits splines to rows between two ends, or round a turn in which they advance."""
 
-    def __init__(
-        self,
-        places: Array,
-        heights: Array,
-        noise: Array,
-        ends: tuple[End, End],
-        advance: float | None = None,
-        continuity: int = 2,
-    ) -> None:
-        self.x, self.y, self.noise, self.ends = places, heights, noise, ends
-        self.advance, self.continuity = advance, continuity  # of the turn, and at its seam
-        self.fine = _FINE  # of a step: how near the ends of rests are looked for
+    x: Array
+    y: Array
+    noise: Array
+    ends: tuple[End, End]
+    advance: float | None  #: of the turn
+    continuity: int = 2  #: at the seam of the turn
+    fine: float = _FINE  #: of a step: how near the ends of rests are looked for
+    degree: int = DEGREE
+    contact: int = 2  #: how many derivatives, with the position, are those of a rest or a line where it ends
 
     def thinned(self) -> _Fitter:
         """The same with fewer rows, for searches."""
         some = slice(None, None, max(1, len(self.x) // _SEARCHED))
-        fewer = _Fitter(self.x[some], self.y[some], self.noise[some], self.ends, self.advance, self.continuity)
-        fewer.fine = _ROUGH
-        return fewer
-
-    def with_seam(self, continuity: int) -> _Fitter:
-        """The same with as many derivatives continuous at the seam of the turn."""
-        return _Fitter(self.x, self.y, self.noise, self.ends, self.advance, continuity)
+        return replace(self, x=self.x[some], y=self.y[some], noise=self.noise[some], fine=_ROUGH)
 
     def solved(
         self, start: float, stop: float, joints: Sequence[Joint], pieces: int, *, whole: bool = False
     ) -> tuple[float, int, CurveFit | None]:
         """The sum of squares, the number of parameters, and with `whole` the fit."""
         joints = tuple(joint for joint in joints if start < joint.place < stop)
-        knots = _knots(start, stop, joints, pieces)
-        count = len(knots) - DEGREE - 1
+        knots = _knots(start, stop, joints, pieces, self.degree)
+        count = len(knots) - self.degree - 1
         inside = (self.x >= start) & (self.x <= stop)
         outside = 0.0
         for end, away in ((self.ends[0], self.x < start), (self.ends[1], self.x > stop)):
             if end.line is not None:
                 outside += float((((self.y[away] - end.value(self.x[away])) / self.noise[away]) ** 2).sum())
         turned, coefficients = self._known(knots)
-        rows = _basis(knots, self.x[inside]) if inside.any() else np.zeros((0, count))
+        rows = _basis(knots, self.x[inside], self.degree) if inside.any() else np.zeros((0, count))
         weights = 1.0 / self.noise[inside]
         left = (self.y[inside] - rows @ coefficients) * weights
         matrix = (rows @ turned) * weights[:, None]
@@ -229,11 +242,11 @@ class _Fitter:
         coefficients = coefficients + turned @ np.linalg.solve(r, along)
         factor = turned @ np.linalg.inv(r)
         squares = float((((rows @ coefficients - self.y[inside]) * weights) ** 2).sum()) + outside
-        spline = BSpline(knots, coefficients, DEGREE)
+        spline = BSpline(knots, coefficients, self.degree)
         return (
             squares,
             parameters,
-            CurveFit(spline, factor, joints, squares, parameters, len(self.x), self.ends, pieces),
+            CurveFit(spline, factor, joints, squares, parameters, len(self.x), self.ends, pieces, self.contact),
         )
 
     def ends_of(
@@ -275,6 +288,33 @@ class _Fitter:
         start, stop = (place, places[1]) if side == 0 else (places[0], place)
         return self.solved(start, stop, joints, pieces)[0] if start < stop else np.inf
 
+    def polynomial_ends(self, at: tuple[float, float]) -> tuple[float, float]:
+        """Where the rests beside one polynomial end by the least sum of squares, from places near these on."""
+        from scipy.optimize import least_squares
+
+        low, high = np.array([end.low for end in self.ends]), np.array([end.high for end in self.ends])
+        if not np.all(low < high):
+            return at
+        step = float(np.median(np.diff(self.x)))
+        start, stop = least_squares(
+            self._missed, np.clip(np.array(at), low, high), bounds=(low, high), x_scale=step,
+            ftol=None, xtol=_EXACT, gtol=None, max_nfev=_ENDS_MOVED,
+        ).x  # fmt: skip
+        return float(start), float(stop)
+
+    def _missed(self, at: Array) -> Array:
+        """How far the best polynomial between two rests that end there misses each row, in deviations of its noise."""
+        x, (start, stop), (first, last) = self.x, at, self.ends
+        off = np.where(x < start, self.y - first.value(x), self.y - last.value(x)) / self.noise
+        inside = (x >= start) & (x <= stop)
+        knots = _knots(start, stop, (), 1, self.degree)
+        turned, known = self._known(knots)
+        rows = _basis(knots, x[inside], self.degree) / self.noise[inside, None]
+        left = self.y[inside] / self.noise[inside] - rows @ known
+        q, _ = np.linalg.qr(rows @ turned)
+        off[inside] = left - q @ (q.T @ left)
+        return np.asarray(off)
+
     def joint(self, start: float, stop: float, joints: Sequence[Joint], pieces: int) -> Joint | None:
         """The joint that lowers the sum of squares most, the smoothest one of those that do it nearly as much."""
         knots = _knots(start, stop, joints, pieces)
@@ -312,21 +352,17 @@ class _Fitter:
 
     def _known(self, knots: Array) -> tuple[Array, Array]:
         """A matrix and a vector that make all coefficients of a spline out of those that its ends leave free."""
-        count = len(knots) - DEGREE - 1
+        count, degree = len(knots) - self.degree - 1, self.degree
         turned, coefficients = np.eye(count), np.zeros(count)
         fixed = np.zeros(count, dtype=bool)
-        spans = (
-            (0, 1, knots[0], knots[DEGREE + 1] - knots[0]),
-            (count - 1, count - 2, knots[-1], knots[-DEGREE - 2] - knots[-1]),
-        )
-        for end, (first, second, place, span) in zip(self.ends, spans, strict=True):
+        for end, first in zip(self.ends, (0, count - self.contact), strict=True):
             if end.line is not None:
-                fixed[[first, second]] = True
-                coefficients[first] = end.value(place)
-                coefficients[second] = coefficients[first] + end.slope * span / DEGREE
+                # the coefficients of a straight line are its positions at the means of knots
+                for i in range(first, first + self.contact):
+                    fixed[i], coefficients[i] = True, end.value(knots[i + 1 : i + 1 + degree].mean())
         if self.advance is not None:
             for nu in range(self.continuity + 1):
-                first, last = (_basis(knots, knots[[at]], nu)[0] for at in (0, -1))
+                first, last = (_basis(knots, knots[[at]], degree, nu)[0] for at in (0, -1))
                 differs = (first - last) / last[-1 - nu]
                 differs[-1 - nu] = 0.0
                 turned[-1 - nu] = differs @ turned
@@ -387,10 +423,17 @@ def fits_of(
     if not fits:
         return []
     for continuity in (1, 0) if advance is not None and rough.best(fits).pieces > _SIMPLE else ():
-        other = _Search(rough.fitter.with_seam(continuity), rough.most)
+        other = _Search(replace(rough.fitter, continuity=continuity), rough.most)
         family = other.climbed((), (middle[0], middle[1]), None)
         if family and other.criterion(other.best(family)) < rough.criterion(rough.best(fits)) - _EVIDENT:
-            rough, fits, fitter = other, family, fitter.with_seam(continuity)
+            rough, fits, fitter = other, family, replace(fitter, continuity=continuity)
+    best = rough.best(fits)
+    polynomials = rough.polynomials((best.start, best.stop)) if best.pieces > _SIMPLE else []
+    plain = [fit for fit in polynomials if rough.criterion(fit) < rough.criterion(best)]
+    if plain and likely(rough.best(plain).squares, rough.rows):
+        refined = [_refined(fitter, fit) for fit in rough.accepted(polynomials)]
+        if likely(min(fit.squares for fit in refined), len(places)):
+            return refined
     joints: tuple[Joint, ...] = ()
     while not simple and len(joints) < _MOST_JOINTS and rough.best(fits).pieces > _SIMPLE:
         families = [each for pieces in _COARSE if (each := rough.joined(fits, joints, pieces))]
@@ -405,7 +448,33 @@ def fits_of(
     if joints:
         joints = rough.fitter.placed(at, joints, best.pieces)
     whole = _Search(fitter, rough.most)
-    return whole.accepted(whole.climbed(joints, at, float(np.median(np.diff(places)))))
+    starts = {fit.pieces: (fit.start, fit.stop) for fit in fits}
+    return whole.accepted(whole.climbed(joints, at, float(np.median(np.diff(places))), starts))
+
+
+def likely(squares: float, rows: int) -> bool:
+    """Whether noise alone makes a sum of squares of rows as great."""
+    return bool(squares <= rows + 3.0 * np.sqrt(2.0 * rows))
+
+
+def rounded_places(places: Array, master: Array) -> Iterator[Array]:
+    """Places rounded to parts of a turn, whole tens of degrees first, in the units of a master."""
+    turn = 360.0 if np.ptp(master) > _RADIANS else 1.0
+    for share in _ROUND:
+        yield np.round(places / (share * turn)) * share * turn
+
+
+def _refined(rows: _Fitter, fit: CurveFit) -> CurveFit:
+    """A polynomial, fitted to all rows; its ends are as round as these allow."""
+    fitter = replace(rows, degree=fit.degree, contact=fit.contact)
+    at = fitter.polynomial_ends((fit.start, fit.stop))
+    most = fitter.solved(*at, (), 1)[0] + len(at) * AS_LIKELY
+    for start, stop in map(tuple, rounded_places(np.array(at), rows.x)):
+        inside = all(end.low <= place <= end.high for end, place in zip(rows.ends, (start, stop), strict=True))
+        if inside and start < stop and fitter.solved(start, stop, (), 1)[0] <= most:
+            at = start, stop
+            break
+    return fitter.solved(*at, (), 1, whole=True)[2] or fit
 
 
 def interpolation(places: Array, heights: Array, ends: tuple[End, End], advance: float | None = None) -> CurveFit:
@@ -444,15 +513,25 @@ class _Search:
         """The likeliest one of several fits."""
         return min(fits, key=self.criterion)
 
-    def climbed(self, joints: Sequence[Joint], at: tuple[float, float], near: float | None) -> list[CurveFit]:
-        """Fits with more and more pieces, until these serve no more; ends are looked for everywhere, or near."""
+    def climbed(
+        self,
+        joints: Sequence[Joint],
+        at: tuple[float, float],
+        near: float | None,
+        starts: Mapping[int, tuple[float, float]] = MappingProxyType({}),
+    ) -> list[CurveFit]:
+        """Fits with more and more pieces, until these serve no more; ends are looked for everywhere, or near.
+
+        Near means within a length of where fits with so many pieces start, else of where the last one does.
+        """
         fits: list[CurveFit] = []
         for pieces in _ladder(self.rows, len(joints)):
             if pieces > self.most:
                 break
             if pieces <= _ENDS_BY:
+                at = min({at, starts.get(pieces, at)}, key=partial(self._squares, joints, pieces))
                 at = self.fitter.ends_of(*at, joints, pieces, near)
-            elif fits and near is None:
+            elif fits:
                 at = self.best(fits).start, self.best(fits).stop
             fit = self.fitter.solved(*at, joints, pieces, whole=True)[2]
             if fit is None:
@@ -462,6 +541,24 @@ class _Search:
             if len(fits) > 3 and all(fit.criterion(2.0) > least + 2.0 for fit in fits[-2:]):
                 break
         return fits
+
+    def _squares(self, joints: Sequence[Joint], pieces: int, at: tuple[float, float]) -> float:
+        return self.fitter.solved(*at, joints, pieces)[0]
+
+    def polynomials(self, at: tuple[float, float]) -> list[CurveFit]:
+        """Fits of one polynomial between two rests, of more and more degrees."""
+        families = []
+        for contact in _CONTACTS if None not in (end.line for end in self.fitter.ends) else ():
+            fits = []
+            for degree in _DEGREES:
+                if degree * _ROWS_EACH > self.rows:
+                    break
+                fitter = replace(self.fitter, degree=degree, contact=contact)
+                at = fitter.polynomial_ends(at)
+                fit = fitter.solved(*at, (), 1, whole=True)[2]
+                fits += [] if fit is None else [fit]
+            families += [fits] if fits else []
+        return min(families, key=lambda fits: self.criterion(self.best(fits)), default=[])
 
     def joined(
         self, fits: Sequence[CurveFit], joints: tuple[Joint, ...], pieces: int

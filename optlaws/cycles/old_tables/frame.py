@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.motion.quantities import either, quantity
@@ -14,6 +15,7 @@ _TURN = 360.0  # deg of the master of a cycle in a turn
 _TURNS = {"deg": _TURN, "rad": 2.0 * np.pi, "turn": 1.0, "rev": 1.0}
 _NEAR = 1e-3  # of the positions: by how much more the last one may be off the first one than steps beside it are
 _MOST_LOBES = 100
+_LONG_STEP = 5  # times the median step: a longer one between equal positions is a rest
 _WHOLE = 1e-6  # of a turn: by how much the last row may be off its end, as digits leave it
 
 
@@ -134,6 +136,25 @@ def begun(places: Array, heights: Array, begin: float | None, advance: float | N
         np.concatenate([places[first:-1], places[: first + 1] + length]),
         np.concatenate([heights[first:-1], heights[: first + 1] + rise]),
     )
+
+
+def with_rests(places: Array, heights: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Rows with further ones in rests of which a table has the ends alone, and which rows it has itself.
+
+    A rest is a step of many times the length of others between two equal positions.
+
+    Examples
+    --------
+    >>> x, y, given = with_rests(np.array([0.0, 1.0, 2.0, 3.0, 8.0]), np.array([0.0, 1.0, 2.0, 4.0, 4.0]))
+    >>> x.tolist(), y.tolist(), np.flatnonzero(given).tolist()
+    ([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], [0.0, 1.0, 2.0, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0], [0, 1, 2, 3, 8])
+    """
+    steps = np.diff(places)
+    parts = np.round(steps / np.median(steps)).astype(int)
+    parts = np.where((heights[1:] == heights[:-1]) & (parts >= _LONG_STEP), parts, 1)
+    first = np.concatenate([[0], np.cumsum(parts)])
+    at = np.arange(first[-1] + 1)
+    return np.interp(at, first, places), np.interp(at, first, heights), np.isin(at, first)
 
 
 def beside_ends(heights: Array) -> float:

@@ -6,13 +6,14 @@ from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import TypeAlias
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from optlaws.cycles.old_tables.fitting import SIMPLE, CurveFit, End, fits_of, interpolation
+from optlaws.cycles.old_tables.fitting import SIMPLE, CurveFit, End, fits_of, interpolation, likely
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
-from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on
+from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on, window_polynomials
 from optlaws.cycles.old_tables.standard import Chain, Outline, criterion, spline_of
 from optlaws.numbers import Array
 from optlaws.numerics.roots import bisect
@@ -221,15 +222,10 @@ def lines_of(samples: Samples, first: int, last: int) -> list[Line]:
     rows = max(_WINDOW, count // 25)
     if count < 2 * rows:
         return []
-    u = sliding_window_view(x, rows) - x[: count - rows + 1, None]
-    u = 2.0 * u / u[:, -1:] - 1.0
     size = np.maximum(sliding_window_view(noise, rows), samples.digit / np.sqrt(12.0)).max(axis=1)
-    values = sliding_window_view(y, rows)
-    projected = [(np.linalg.pinv(u[:, :, None] ** np.arange(degree + 1)) @ values[:, :, None]) for degree in (1, 3)]
-    left = [
-        ((values - ((u[:, :, None] ** np.arange(len(fit[0]))) @ fit)[:, :, 0]) ** 2).sum(axis=1) for fit in projected
-    ]
-    straight = (left[0] - left[1]) <= _BENT * size**2
+    bent = window_polynomials(sliding_window_view(x, rows), 3)[:, :, 2:]
+    bends = np.einsum("ijk,ij->ik", bent, sliding_window_view(y, rows))
+    straight = (bends**2).sum(axis=1) <= _BENT * size**2
     lines = []
     edges = np.flatnonzero(np.diff(np.concatenate([[0], straight.astype(int), [0]])))
     for begin, end in zip(edges[::2], edges[1::2], strict=True):
@@ -276,10 +272,10 @@ def motion_of(samples: Samples) -> FittedMotion:
         clean = clean.without(np.isin(clean.places, far))
         rests = rests_of(clean)
     advance, seam = _advance(clean), float(clean.places[-1])
-    crests: list[float] = []
+    crests, known = list[float](), dict[object, _Found]()
     while True:
         begun, rests = _begun(clean, crests, advance)
-        moves, total, left_out = _moves_between(begun, rests, seam, advance)
+        moves, squares, free, left_out = _moves_between(begun, rests, seam, advance, known)
         more = _crests(begun, rests, moves)
         if not more:
             break
@@ -290,20 +286,27 @@ def motion_of(samples: Samples) -> FittedMotion:
     apart = np.abs(samples.places[:, None] - np.array(far)), np.abs(samples.places[:, None] + turn - np.array(far))
     suspects = samples.suspects | (np.minimum(*apart) < _SAME * turn).any(axis=1)
     moves.sort(key=lambda move: move.start)
-    return FittedMotion(replace(samples, suspects=suspects), tuple(moves), total[0] / max(total[1], 1.0))
+    return FittedMotion(replace(samples, suspects=suspects), tuple(moves), squares / max(free, 1.0))
+
+
+#: the moves of a region, the sum of their squares, the degrees of freedom left, and places far off
+_Found: TypeAlias = tuple[list[FittedMove], float, float, list[float]]
 
 
 def _moves_between(
-    samples: Samples, rests: Sequence[Line], seam: float, advance: float
-) -> tuple[list[FittedMove], list[float], list[float]]:
-    """The moves between rests, the sum of their squares with the degrees of freedom left, and places far off."""
-    moves, total, far = list[FittedMove](), [0.0, 1.0], list[float]()
+    samples: Samples, rests: Sequence[Line], seam: float, advance: float, known: dict[object, _Found]
+) -> _Found:
+    """The moves between rests; regions that are `known` are as before."""
+    moves, squares, free, far = list[FittedMove](), 0.0, 1.0, list[float]()
     for before, after in pairwise([None, *rests, None]):
-        region = _Region(samples, before, after, seam, advance, split=True)
-        if region.moves_at_all:
-            moves += region.moves(total)
-            far += region.far
-    return moves, total, far
+        key = float(samples.places[0]), before, after
+        if key not in known:
+            region, counts = _Region(samples, before, after, seam, advance, split=True), [0.0, 0.0]
+            of_region = list(region.moves(counts)) if region.moves_at_all else []
+            known[key] = of_region, counts[0], counts[1], region.far
+        of_region, more_squares, more_free, more_far = known[key]
+        moves, squares, free, far = moves + of_region, squares + more_squares, free + more_free, far + more_far
+    return moves, squares, free, far
 
 
 def _crests(samples: Samples, rests: Sequence[Line], moves: Sequence[FittedMove]) -> list[float]:
@@ -399,7 +402,7 @@ class _Region:
         if chains and self._left_out(chains[0]):
             x, y, chains = self.x, self.y, self._chains(places)
         chain = chains[0] if chains else None
-        plain, count = chain is not None and self._likely(chain.squares), len(x)
+        plain, count = chain is not None and likely(chain.squares, len(x)), len(x)
         fits = tuple(fits_of(x, y, self.noise, self.ends, self.advance, simple=plain))
         while fits and not plain and self._left_out_beside(fits[0]):
             x, y = self.x, self.y
@@ -449,16 +452,12 @@ class _Region:
         total[1] -= 2 * len(lines)
         return moves, total
 
-    def _likely(self, squares: float) -> bool:
-        """Whether noise alone makes a sum of squares as great."""
-        return bool(squares <= len(self.x) + 3.0 * np.sqrt(2.0 * len(self.x)))
-
     def _left_out(self, chain: Chain) -> int:
         """Leave out rows far off standard laws that explain all others, and tell how many these are."""
         off = (chain(self.x) - self.y) / self.noise
         near = np.abs(off) <= _FAR
         count = len(off) - int(near.sum())
-        if 0 < count <= _FEW * len(off) + 1 and self._likely(float((off[near] ** 2).sum())):
+        if 0 < count <= _FEW * len(off) + 1 and likely(float((off[near] ** 2).sum()), len(off)):
             self.far += self.x[~near].tolist()
             self.x, self.y, self.noise = self.x[near], self.y[near], self.noise[near]
             return count
@@ -504,7 +503,7 @@ class _Region:
         bounds = (float(self.x[0]), float(self.x[-1]))
         outline = Outline(self.x, self.y, self.noise, np.array(places), heights, known, bounds)
         chains = outline.chains()
-        if len(places) > 2 and not self._likely(chains[0].squares):
+        if len(places) > 2 and not likely(chains[0].squares, len(self.x)):
             # a rest so short that its rows look like a crest
             long = float(np.median(np.diff(self.x))) * _FEWEST
             resting = outline.chains(min(long, 0.2 * float(np.diff(places).min())))

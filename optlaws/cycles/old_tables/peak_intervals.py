@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from optlaws.cycles.old_tables.fitting import SIMPLE, CurveFit
+from optlaws.cycles.old_tables.fitting import DEGREE, SIMPLE, CurveFit
+from optlaws.cycles.old_tables.samples import window_polynomials
 from optlaws.numbers import Array
 
 #: standard deviations by which estimates in bands are off at most, and in windows beyond what is usual for as many
@@ -20,7 +21,7 @@ _APPROXIMATION = 1e-3
 _KINK = 0.1
 #: windows have so many rows, and each begins so many parts of its length behind the last one
 _LONGER, _OVERLAP = 1.35, 6
-#: places of each piece at which a band is looked at
+#: places of each piece of degree 5 at which a band is looked at
 _PLACES = 24
 
 
@@ -75,8 +76,10 @@ def least_peak(places: Array, heights: Array, noise: Array, digit: float, nu: in
         y = sliding_window_view(heights, rows)[starts]
         sizes = sliding_window_view(noise, rows)[starts]
         span = 0.5 * (x[:, -1] - x[:, 0])
+        weights = window_polynomials(x, nu)[:, :, nu]
+        # the derivative of what is in proportion to the highest polynomial
         u = (x - 0.5 * (x[:, -1] + x[:, 0])[:, None]) / span[:, None]
-        weights = np.linalg.pinv(u[:, :, None] ** np.arange(nu + 1))[:, nu, :] * _FACTORIALS[nu]
+        weights = weights * (_FACTORIALS[nu] / (weights * u**nu).sum(axis=1))[:, None]
         values = np.abs((weights * y).sum(axis=1))
         errors = (np.sqrt(2.0 * np.log(len(x) + 1.0)) + _BEYOND) * np.sqrt(((weights * sizes) ** 2).sum(axis=1))
         if digit > 0.0:
@@ -102,7 +105,7 @@ def most_peak(fits: Sequence[CurveFit], nu: int, low: float, high: float) -> flo
             return inf
         inner = fit.breaks[(fit.breaks > start) & (fit.breaks < stop)]
         edges = np.concatenate([[start], inner, [stop]])
-        share = np.linspace(0.0, 1.0, _PLACES, endpoint=False)
+        share = np.linspace(0.0, 1.0, _PLACES * fit.degree // DEGREE, endpoint=False)
         at = np.append((edges[:-1, None] + np.diff(edges)[:, None] * share).ravel(), stop)
         # one-sided values before jumps too
         at = np.unique(np.concatenate([at, np.nextafter(inner, -inf)]))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -26,8 +26,8 @@ _FAR_ORDER, _SUSPECT = 6, 6.0
 _FILTERED, _MOST_ROUNDS = 1.78, 4
 #: degrees of polynomials of the rows on a side of a point, the next one where rows are off by more deviations of noise
 _DEGREES_BESIDE, _FITTING = (2, 3, 4), 2.0
-#: rows on each side of a seam, and by how many standard deviations their cubics may miss each other there
-_BESIDE_SEAM, _STEP = 9, 5.0
+#: degrees of polynomials of rows on each side of a seam, and by how many standard deviations they may miss each other
+_DEGREES_OVER_SEAM, _STEP = (3, 5, 7), 5.0
 #: in fewer rows, in orders of the differences, these tell the motion itself from noise nowhere
 _ROWS_TO_STAND_OUT = 6
 #: a point far off is so from where either side goes on, by so much of the size that the filter gives it
@@ -36,6 +36,8 @@ _BOTH = 0.35
 _BEYOND_ROUNDING = 1.3
 #: differences whose size is by so much less than that of the order below are no noise
 _STILL_FALLING = 0.5
+#: of half a window: places in it that are even have no more from where they are
+_EVEN = 1e-11
 #: decimals that a rounded number has at most
 _DECIMALS = 9
 
@@ -66,6 +68,15 @@ class Samples:
         """The samples less some rows."""
         others = ~rows
         return Samples(self.places[others], self.heights[others], self.digit, self.noise[others], self.suspects[others])
+
+    @property
+    def rounded(self) -> bool:
+        """Whether its heights are rounded to less than all digits."""
+        return self.digit > LEAST_NOISE * float(np.ptp(self.heights))
+
+    def with_noise(self, share: float) -> Samples:
+        """The samples with a share of their noise, but no less than rounding leaves."""
+        return replace(self, noise=np.maximum(share * self.noise, LEAST_NOISE * float(np.ptp(self.heights))))
 
     def begun_at(self, row: int, advance: float) -> Samples:
         """The samples of the turn that begins at a row: those before it follow, and it closes the turn."""
@@ -154,18 +165,29 @@ def even_places(places: Array) -> Array:
 def unit_of_rounding(values: Array) -> float:
     """The coarsest of 1, 0.5, 0.2, 0.1, 0.05, ... of which all values are multiples; 0 where they have more digits.
 
+    Of values in single precision it is the last digit of the greatest one, unless they are multiples of more.
+
     Examples
     --------
     >>> unit_of_rounding(np.array([0.25, 1.5, 2.0])), unit_of_rounding(np.array([1.0 / 3.0]))
     (0.05, 0.0)
+    >>> unit_of_rounding(np.array([0.33333334, 1.6666666])) == 2.0**-23
+    True
     """
     size = float(np.abs(values).max())
     for decimals in range(_DECIMALS + 1):
         for parts in (1, 2, 5):
             scale = float(parts * 10**decimals)
             if np.abs(np.round(values * scale) / scale - values).max() <= 4e-16 * size:
-                return 1.0 / scale
-    return 0.0
+                return max(1.0 / scale, _single_precision(values))
+    return _single_precision(values)
+
+
+def _single_precision(values: Array) -> float:
+    """The last digit of the greatest value, where all are numbers in single precision; else 0."""
+    nearest = values.astype(np.float32)
+    written = (float(str(each)) == value or float(each) == value for each, value in zip(nearest, values, strict=True))
+    return float(np.spacing(np.abs(nearest).max())) if all(written) else 0.0
 
 
 def noise_of(places: Array, heights: Array, rests: Mask | None = None, *, computed: bool = False) -> float:
@@ -196,8 +218,28 @@ def difference_weights(places: Array, order: int) -> Array:
     return np.asarray(weights / np.sqrt((weights**2).sum(axis=1))[:, None])
 
 
+def window_polynomials(places: Array, degree: int) -> Array:
+    """Orthonormal polynomials up to a degree in windows of places, shape (windows, rows, degree + 1).
+
+    The windows have shape (windows, rows). All even ones have the same polynomials, which are computed once.
+
+    Examples
+    --------
+    >>> x = sliding_window_view(np.linspace(0.0, 360.0, 721), 9)
+    >>> q = window_polynomials(x, 3)
+    >>> bool(np.abs(q[5].T @ q[5] - np.eye(4)).max() < 1e-12), bool(np.abs(q[5, :, 2:].T @ x[5]).max() < 1e-9)
+    (True, True)
+    """
+    middle, half = 0.5 * (places[:, -1:] + places[:, :1]), 0.5 * (places[:, -1:] - places[:, :1])
+    u, even = (places - middle) / half, np.linspace(-1.0, 1.0, places.shape[1])
+    uneven = np.abs(u - even).max(axis=1) > _EVEN
+    distinct = np.vstack([even, u[uneven]])
+    polynomials = np.linalg.qr(distinct[:, :, None] ** np.arange(degree + 1))[0]
+    return np.asarray(polynomials[np.where(uneven, np.cumsum(uneven), 0)])
+
+
 def goes_on(places: Array, heights: Array, noise: Array) -> bool:
-    """Whether a motion goes on over the seam of its turn: cubics of the rows on its sides meet there, but for noise.
+    """Whether a motion goes on over the seam of its turn: polynomials of rows on its sides meet there, but for noise.
 
     Examples
     --------
@@ -207,13 +249,17 @@ def goes_on(places: Array, heights: Array, noise: Array) -> bool:
     >>> goes_on(x, np.append(np.sin(np.radians(x[:-1]) / 4), 0.0), np.full(181, 1e-9))
     False
     """
-    ends, variance = [], 0.0
-    for side, seam in ((slice(0, _BESIDE_SEAM), 0), (slice(-1 - _BESIDE_SEAM, -1), -1)):
-        end, squares, share = _beyond(places[side], heights[side], places[seam], 3)
-        ends.append(end)
-        variance += max(squares, float(noise[side].max()) ** 2) * share
-    # the row that closes the turn is that of its beginning, or is measured
-    return bool(abs(ends[0] + heights[-1] - heights[0] - ends[1]) <= _STEP * np.sqrt(variance))
+    for degree in _DEGREES_OVER_SEAM:
+        wide, ends, variances = min(2 * degree + 3, len(places) - 1), [], []
+        for side, seam in ((slice(0, wide), 0), (slice(-1 - wide, -1), -1)):
+            end, squares, share = _beyond(places[side], heights[side], places[seam], degree)
+            ends.append(heights[seam] - end)
+            variances.append(max(squares, float(noise[side].max()) ** 2) * share)
+        # the row that closes the turn is that of its beginning, or is measured
+        closing = abs(ends[1]) <= _STEP * np.sqrt(variances[1] + float(noise[-1]) ** 2)
+        if closing or abs(ends[1] - ends[0]) <= _STEP * np.sqrt(sum(variances)):
+            return True
+    return False
 
 
 def _rests_exactly(heights: Array) -> Mask:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import BPoly, BSpline
 
-from optlaws.cycles.old_tables.fitting import DEGREE, CurveFit, End, Joint
+from optlaws.cycles.old_tables.fitting import AS_LIKELY, DEGREE, CurveFit, End, Joint, rounded_places
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.numbers import Array
 
@@ -37,12 +37,6 @@ _MOST_COMBINED = 3
 _AT_REST = 1e-9
 #: parts of each piece of a law, each as a polynomial
 _PIECES_OF_LAW = 4
-#: steps to which places are rounded where the rows allow it, in parts of a turn
-_ROUND = (1.0 / 36.0, 1.0 / 72.0, 1.0 / 360.0, 1.0 / 720.0, 1.0 / 3600.0)
-#: a master that is longer is no turn in radians or turns
-_RADIANS = 12.0
-#: by how much the sum of squares may grow for each place that is rounded
-_AS_LIKELY = 4.0
 #: of the last digit: rows that are no farther off are the law's own
 _ROUNDED = 0.5001
 
@@ -78,25 +72,23 @@ class Chain:
 
     def rounded(self, x: Array, y: Array, noise: Array, digit: float, bounds: tuple[float, float]) -> Chain:
         """The chain with places as round, and heights, as the rows allow; it ends in the bounds."""
-        turn = 360.0 if np.ptp(x) > _RADIANS else 1.0
         count = len(self.places)
-        for share in (*_ROUND, 0.0):
-            places, heights = self.places, self.heights.copy()
-            if share:
-                places = np.round(places / (share * turn)) * share * turn
+        for places in (*rounded_places(self.places, x), self.places):
+            heights = self.heights.copy()
+            if places is not self.places:
                 if digit:
                     free = self.deviations[count:] > 0.0
                     heights = np.where(free, np.round(heights / digit) * digit, heights)
                 for i, name in enumerate(self.names):
                     if not name:
                         heights[i + 1] = heights[i]
-            places = np.clip(places, *bounds)
-            if np.all(np.diff(places) > 0.0):
-                off = _positions(self.names, places, heights, x) - y
+            inside = np.clip(places, *bounds)
+            if np.all(np.diff(inside) > 0.0):
+                off = _positions(self.names, inside, heights, x) - y
                 squares = float(((off / noise) ** 2).sum())
                 rounded = 0.0 < float(np.abs(off).max()) <= _ROUNDED * digit
-                if squares <= self.squares + _AS_LIKELY * count or rounded or not share:
-                    return replace(self, places=places, heights=heights, squares=squares)
+                if squares <= self.squares + AS_LIKELY * count or rounded or places is self.places:
+                    return replace(self, places=inside, heights=heights, squares=squares)
         return self
 
     def peak(self, move: int, nu: int) -> float:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from itertools import pairwise
-from math import inf
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -14,7 +12,7 @@ from optlaws.cycles.old_tables.motion import SHORTEST, FittedMotion, FittedMove
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.catalogue.tables.curve_pieces import hermite, law_of_pieces
+from optlaws.laws.catalogue.tables.curve_pieces import law_of_curve
 from optlaws.numbers import Array
 from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import VALUE_ROUNDING
@@ -23,8 +21,6 @@ StretchKind: TypeAlias = Literal["dwell", "rise", "return"]
 
 #: of a move: breaks that are nearer to its ends are these
 _APART = 1e-9
-#: at both ends of a piece of degree 5: its position, velocity and acceleration
-_DERIVATIVES = 3
 
 
 @dataclass(frozen=True)
@@ -126,13 +122,9 @@ def _law_of(move: FittedMove) -> MotionLaw:
     fit = move.fits[0]
     apart = _APART * (move.stop - move.start)
     inner = (fit.breaks > move.start + apart) & (fit.breaks < move.stop - apart)
-    ends = np.concatenate([[move.start], fit.breaks[inner], [move.stop]])
-    begins, stops = (
-        np.column_stack([fit.values(at, nu) for nu in range(_DERIVATIVES)])
-        for at in (ends[:-1], np.nextafter(ends[1:], -inf))
-    )
-    states = zip(pairwise(ends.tolist()), begins.tolist(), stops.tolist(), strict=True)
-    return law_of_pieces([hermite(low, high, first, last) for (low, high), first, last in states])
+    breaks = [move.start, *fit.breaks[inner].tolist(), move.stop]
+    degrees = [fit.degree] * (len(breaks) - 1)
+    return law_of_curve(breaks, move.high - move.low, degrees, lambda places, _, nu: fit.values(places, nu))
 
 
 def position(part: Stretch, places: Array) -> Array:

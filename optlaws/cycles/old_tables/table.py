@@ -12,7 +12,7 @@ import numpy as np
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.old_tables.better_laws import MoveGain, bettered, gain
-from optlaws.cycles.old_tables.frame import begun, closed, in_order, in_unit, of_lobe, period_of, whole_turn
+from optlaws.cycles.old_tables.frame import begun, closed, in_order, in_unit, of_lobe, period_of, whole_turn, with_rests
 from optlaws.cycles.old_tables.motion import NOISE_ROOM, motion_of
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.reading import points_in
@@ -35,6 +35,7 @@ _TIMES = {"s", "ms"}
 _MOST_NAMED = 8  # points that are left out
 _MOVING = 1e-3  # of the greatest velocity of a stretch: it begins with one that is more
 _WHOLE_TURN = 1e-6  # of a turn: by how much rows that are one may be longer or shorter
+_LESS_NOISE = 0.5  # of the noise by differences: where rows are nearer to the fitted motion that is the noise
 _STANDARD_LAW_ROOM = 1e-7  # of the stroke of a table with all digits: by how much a standard law may be off its points
 
 
@@ -572,19 +573,26 @@ def split_table(
     stroke = float(np.ptp(heights))
     if stroke == 0.0:
         raise InputError("the table never moves: all its positions are the same")
-    samples = samples_of(places, heights, digit)
+    all_places, all_heights, given = with_rests(places, heights)
+    samples = samples_of(all_places, all_heights, digit)
     least = max(samples.digit if digit else 0.0, _STANDARD_LAW_ROOM * stroke)
     room = least if tolerance is None else max(not_negative(tolerance, "tolerance"), _STANDARD_LAW_ROOM * stroke)
     scatter = samples.scatter
     if tolerance is not None:
         samples = replace(samples, noise=np.maximum(samples.noise, room / NOISE_ROOM))
     motion = motion_of(samples)
+    if tolerance is None and not samples.rounded and scatter and motion.variance < _LESS_NOISE**2:
+        # of few rows with all digits, differences show the motion itself
+        samples = samples.with_noise(float(np.sqrt(motion.variance)))
+        motion, scatter = motion_of(samples), samples.scatter
     if not motion.moves:
         raise InputError("the table never moves as far as its noise tells: its positions scatter about one level")
     if tolerance is None:
         room = max(room, NOISE_ROOM * scatter)
     table = OldTable(
-        tuple(stretches_of(motion)), room, scatter, seam_of(heights, room), unit, master, samples.places, heights,
-        whole=whole, outliers=tuple(np.flatnonzero(motion.samples.suspects).tolist()),
+        tuple(stretches_of(motion)), room, scatter, seam_of(heights, room), unit, master, samples.places[given],
+        heights, whole=whole,
     )  # fmt: skip
+    far = motion.samples.suspects[given] & (np.abs(table.at(table.places) - heights) > room)
+    table = replace(table, outliers=tuple(np.flatnonzero(far).tolist()))
     return _repeated(table, lobes)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from copy import deepcopy
 from itertools import pairwise, zip_longest
 from math import factorial, perm
@@ -248,17 +248,29 @@ def law_of_pieces(pieces: Sequence[CurvePiece]) -> MotionLaw:
     """
     if len(pieces) == 1 and pieces[0].law:
         return catalogue[pieces[0].law].law
-    start, length = pieces[0].start, pieces[-1].stop - pieces[0].start
-    stroke = pieces[-1].ends[1] - pieces[0].ends[0]
-    segments = []
-    for piece in pieces:
-        share = piece.length / length
-        u = 0.5 * (chebyshev.nodes(max(len(piece.values) - 2, 1)) + 1.0)
-        acceleration = chebyshev.from_values(piece.at(u, 2) * (length**2 / stroke))
-        slope = piece.values[1] if len(piece.values) > 1 else 0.0
-        segments.append(PolynomialSegment(tuple(acceleration.tolist()), slope / (stroke * share)))
-    places = [0.0, *((piece.stop - start) / length for piece in pieces[:-1]), 1.0]
-    return PiecewiseLaw(places, segments)
+    breaks, stroke = [*(piece.start for piece in pieces), pieces[-1].stop], pieces[-1].ends[1] - pieces[0].ends[0]
+
+    def at(place: Array, i: int, nu: int) -> Array:
+        return pieces[i].at((place - pieces[i].start) / pieces[i].length, nu)
+
+    return law_of_curve(breaks, stroke, [len(piece.values) - 1 for piece in pieces], at)
+
+
+def law_of_curve(
+    breaks: Sequence[float], stroke: float, degrees: Sequence[int], derivative: Callable[[Array, int, int], Array]
+) -> MotionLaw:
+    """The law of polynomials between breaks, by their derivatives at places, with their number and the order.
+
+    >>> law_of_curve([0.0, 2.0], 4.0, [2], lambda x, i, nu: 2.0 * x ** (2 - nu)).constants.C
+    Peak(value=2.0, k=0.0)
+    """
+    start, length, segments = breaks[0], breaks[-1] - breaks[0], []
+    for i, ((low, high), degree) in enumerate(zip(pairwise(breaks), degrees, strict=True)):
+        places = low + 0.5 * (high - low) * (chebyshev.nodes(max(degree - 1, 1)) + 1.0)
+        acceleration = chebyshev.from_values(derivative(places, i, 2) * (length**2 / stroke))
+        slope = float(derivative(np.array([low]), i, 1)[0]) * length / stroke
+        segments.append(PolynomialSegment(tuple(acceleration.tolist()), slope))
+    return PiecewiseLaw([0.0, *((place - start) / length for place in breaks[1:-1]), 1.0], segments)
 
 
 def _length(start: float, stop: float) -> float:
