@@ -26,7 +26,8 @@ Values = dict[str, tuple[float, str]]
 
 #: a pressure angle below it is none
 SMALLEST_ANGLE = 1e-100
-_SPRING_UNITS = {"length": ("N", "N/m"), "angle": ("N m", "N m/rad")}
+#: units of forces and of stiffness by what the follower's way is
+SPRING_UNITS = {"length": ("N", "N/m"), "angle": ("N m", "N m/rad")}
 
 
 def motion_values(cam: DiscCam, rate: float) -> Values:
@@ -78,7 +79,7 @@ def force_values(forces: CamForces) -> Values:
 
 def spring_values(spring: Spring, axis: str) -> Values:
     """Stiffness and preload of the least spring, and its greatest force."""
-    force, stiffness = _SPRING_UNITS[axis]
+    force, stiffness = SPRING_UNITS[axis]
     contact = spring.objective == GREATEST[CONTACT]
     return {
         "stiffness of the least spring": (spring.stiffness, stiffness),

@@ -20,6 +20,7 @@ from optlaws.cams.best_laws import (
     prime_circle_of_laws,
 )
 from optlaws.cams.cam_values import (
+    SPRING_UNITS,
     Values,
     cam_differences,
     force_values,
@@ -88,8 +89,6 @@ if TYPE_CHECKING:
 _SIZE_MET = 1e-7  # of a radius: a size that is proven to so much is the least one
 #: before the names of the files of the return cam
 _RETURN = "return-"
-#: units of forces and of stiffness by what the follower's way is
-_SPRING_UNITS = {"length": ("N", "N/m"), "angle": ("N m", "N m/rad")}
 #: what a spring adds to a drive
 _SPRING = {"stiffness", "preload"}
 #: cams whose laws were optimised for them
@@ -288,7 +287,7 @@ class CamResult:
         if not isinstance(self.cam.motion, Cycle | Plan):  # a motion by angle has neither
             beside = {"speed": Exact(TURN / cycle.duration, "rad/s"), "drive": cycle.drive}
         if self._needs_spring:
-            force, stiffness = _SPRING_UNITS[self.cam.displacement.axis]
+            force, stiffness = SPRING_UNITS[self.cam.displacement.axis]
             spring = self.least_spring
             pressing = {"stiffness": Exact(spring.stiffness, stiffness), "preload": Exact(spring.preload, force)}
             beside["drive"] = {**self._linear_drive, **pressing}
@@ -349,7 +348,7 @@ class CamResult:
             *([f"Limits: {'; '.join(map(_rounded, plan.limits_taken))}."] if plan.limits_taken else []),
         ]
         if self._needs_spring and plan.solutions and kind_of(plan.minimise)[0].is_driven:
-            spring, (force, stiffness) = self.least_spring, _SPRING_UNITS[self.cam.displacement.axis]
+            spring, (force, stiffness) = self.least_spring, SPRING_UNITS[self.cam.displacement.axis]
             known.append(
                 f"The {plan.minimise} is without the spring below: to count it, give the drive the entries "
                 f'stiffness = "{spring.stiffness:.{DIGITS}g} {stiffness}" and preload = "{spring.preload:.{DIGITS}g} '
@@ -537,7 +536,7 @@ class CamResult:
         if entries is None:
             return Section()
         spring = self.least_spring
-        force, stiffness = _SPRING_UNITS[self.cam.displacement.axis]
+        force, stiffness = SPRING_UNITS[self.cam.displacement.axis]
         contact = entries.greatest == CONTACT
         greatest = "greatest contact force" if contact else "greatest force on the follower"
         sought = greatest if spring.objective in GREATEST.values() else spring.objective
