@@ -2,8 +2,8 @@
 
 The rows that a certificate names are added up with its multipliers as they are written. What the sum still depends on
 is charged: by how much it can lower the sum in laws that contradict the claim, whose constants, and with them the mean
-magnitudes of derivatives, are bounded. Where nothing bounds such laws the multipliers are repaired: changed as little
-as makes the sum depend on nothing, which balls enclose.
+magnitudes of derivatives, are bounded. Where nothing bounds such laws, or the charge is not small beside the sum, the
+multipliers are repaired: changed as little as makes the sum depend on nothing, which balls enclose.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from optlaws.verification.exact.places import places_hold
 from optlaws.verification.exact.rows import ExactRows
 
 _MORE_BITS = (1, 2, 4)
+_DEAR = 1e-10  # of a sum: what a charge that is more takes, repaired multipliers may not
 
 
 @dataclass(frozen=True)
@@ -99,9 +100,9 @@ def _proof(rows: ExactRows, certificate: Certificate, along: Along | None) -> Pr
     sublevel = rows.sublevel if along is None else replace(rows.sublevel, problem=along.widest)
     beyond = charge(sublevel, rows, total, Fraction(claim)) if isfinite(claim) else None
     weights, value = leaf.weights, total[-1]
-    if beyond is None:
+    if beyond is None or bool(beyond > ball(_DEAR) * abs(value)):
         repaired = leaf.repaired(total[:-1])
-        if repaired is not None:
+        if repaired is not None and (beyond is None or bool(repaired[1] > value - beyond)):
             (weights, value), beyond, claim = repaired, arb(0), inf
     if beyond is None or not value.is_finite():
         return Proof(None, 0.0, leaf.negative, leaf.unknown)
