@@ -63,6 +63,19 @@ def test_specks_of_dust_are_left_out_and_listed(seed: int) -> None:
     assert np.abs(values).max() * 1e3 / 360**2 == pytest.approx(peak, rel=0.01)
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_a_move_that_begins_where_its_noisy_table_does(seed: int) -> None:
+    """Its first rows, which noise hides, look like a rest; that of the table's end goes on to its seam."""
+    law = catalogue["modified sine"].law
+    theta = np.arange(0.0, 360.2, 0.4)
+    lift = 40.0 * (law(np.clip(theta / 110.0, 0.0, 1.0)) - law(np.clip((theta - 200.0) / 100.0, 0.0, 1.0)))
+    noise = np.random.default_rng(100 + seed).normal(0.0, 0.004, len(theta))
+    table = split_table(theta, np.round(lift + noise, 4))
+    assert [part.law for part in table.moves] == ["modified sine"] * 2
+    ends = [end for part in table.moves for end in (part.start, part.stop)]
+    assert ends == pytest.approx([0.0, 110.0, 200.0, 300.0], abs=0.01)
+
+
 def test_a_table_that_moves_at_its_seam_and_advances() -> None:
     """The second of two movers on a track of 1,500 mm, which keeps 60 mm in curves and 100 mm on straights."""
     master = np.arange(0, 1500.1, 5.0)

@@ -346,9 +346,10 @@ def _begun(samples: Samples, crests: Sequence[float], advance: float) -> tuple[S
         return lines
 
     rests = rests_in(samples)
-    if (rests and rests[0].first == 0 and rests[-1].last == last) or not goes_on(
-        samples.places, samples.heights, samples.noise
-    ):
+    # a short one at an end of the table may be the slow begin of a move, or go on at the other end
+    whole = rests and rests[0].first == 0 and rests[-1].last == last
+    long = whole and min(rests[0].last, last - rests[-1].first) >= 2 * _FEWEST
+    if long or not goes_on(samples.places, samples.heights, samples.noise):
         return samples, rests
     lines = rests or lines_of(samples, 0, last)
     if lines:
