@@ -120,7 +120,7 @@ def test_every_solution_of_a_file_is_checked(tmp_path: Path, capsys: pytest.Capt
     assert list(verifications) == ["rows[0].solution", "rows[1].printed"]
     assert all(one.proven for one in verifications.values())
     assert exit_code(["verify", file]) == 0
-    assert "rows[0].solution: proven" in capsys.readouterr().out
+    assert "rows[0].solution: 29 claims are proven" in capsys.readouterr().out
     rows["rows"][1]["printed"]["constants"]["C"]["value"] = 5.0
     assert exit_code(["verify", written(tmp_path, json.dumps(rows))]) == 1
     assert "not proven  C: 5.0 stated" in capsys.readouterr().out

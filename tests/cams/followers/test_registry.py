@@ -20,6 +20,7 @@ MAKERS = {
     "cams/at_shaft.py": {"translating roller"},
     "cams/least_sizes.py": {"TranslatingRoller"},
     "jobs/cam.py": {"TranslatingRoller"},
+    "jobs/starters/starter.py": {"TranslatingRoller"},
     "explorer/views/cam_view.py": {"translating roller"},
 }
 
