@@ -32,11 +32,15 @@ _BREAK_ROUNDING = 2.0**-50  # of k: by so much rounding moves a break to its mir
 
 @dataclass(frozen=True)
 class Excess:
-    """The greatest violation of a condition (0 or less: none), and the part that rounding explains."""
+    """The greatest violation of a condition (0 or less: none), and the part that rounding explains.
+
+    Nothing is known of it where its enclosure has no end.
+    """
 
     name: str
     by: float
     allowed: float
+    known: bool = True
 
     @property
     def holds(self) -> bool:
@@ -60,7 +64,7 @@ def excesses(problem: Problem, law: ExactLaw) -> list[Excess]:
 def _of(name: str, value: arb, scale: float = 1.0, tolerance: float = BOUND_FEASIBILITY, least: float = 1.0) -> Excess:
     """`scale` is of the condition's numbers; `least` of its quantity in smooth laws, for numbers that are 0."""
     by = rounded_up(upper(value)) + 0.0 if value.is_finite() else inf
-    return Excess(name, by, tolerance * max(least, scale))
+    return Excess(name, by, tolerance * max(least, scale), value.is_finite())
 
 
 def _ends(problem: Problem, law: ExactLaw) -> Iterator[Excess]:

@@ -41,7 +41,8 @@ class Claim:
 
     def __str__(self) -> str:
         word = "proven" if self.proven else "not proven" if self.checked else "not checked"
-        return f"{word:<12}{self.name}: {self.detail}"
+        name = self.name if len(self.name) <= _LONGEST_NAME else f"{self.name[: _LONGEST_NAME - 4]} ..."
+        return f"{word:<12}{name}: {self.detail}"
 
 
 Data: TypeAlias = Mapping[str, Any]
@@ -52,6 +53,8 @@ Proven: TypeAlias = "Rule | Mapping[str, Proven] | None"
 
 #: of the greatest number of a row: what rounding leaves of one that is 0, and of the difference of two
 _NOTHING, _BESIDE = 1e-13, 1e-16
+#: letters of a claim's name that are shown: formulas of mechanisms may have thousands
+_LONGEST_NAME = 160
 _STATED_CONSTANT = 1e-11  # of a constant: what one that was computed in doubles may be off
 
 

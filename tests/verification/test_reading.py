@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from flint import arb
 
 from optlaws import Basis, Chebyshev, Functional, InputError, Problem, smoothstep
 from optlaws.verification import exact_bound, verify, verify_all
@@ -108,6 +109,17 @@ def test_the_same_of_python_data() -> None:
         verify({**data, "certificate": {**data["certificate"], "tangent": float("inf")}})
     with pytest.raises(InputError, match="neither a solution"):
         verify({"rows": [data]})
+
+
+def test_what_has_no_finite_enclosure_is_computed_again_in_doubles(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Formulas of mechanisms may be so long that their enclosures have no end: they neither prove nor refute."""
+    data = data_of(PROBLEM)
+    monkeypatch.setattr("optlaws.verification.exact.law.ExactLaw.sum", lambda *_: arb("nan"))
+    verification = verify(data)
+    assert verification.proven
+    assert {claim.name for claim in verification.unchecked} == {"the objective", "the gap", "optimal"}
+    refuted = verify(data | {"objective": 1.01 * data["objective"]})
+    assert [claim.name for claim in refuted.claims if not claim.proven] == ["the objective"]
 
 
 def test_every_solution_of_a_file_is_checked(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
