@@ -80,6 +80,9 @@ class Differences:
     ('modified sine has 12.3 % less peak jerk than these laws: give them a higher degree, or wider limits',)
     >>> Differences("modified sine", [Difference("jerk", "m/s³", 2630.0, 38293.0)], "energy").remarks
     ('jerk is 14.6 times that of modified sine: limit the jerk to less',)
+    >>> times = Difference("least time", "s", 0.2, 0.1), Difference("jerk", "m/s³", 2630.0, 38293.0)
+    >>> Differences("modified sine", times, "least time").remarks
+    ()
     """
 
     usual: str
@@ -93,15 +96,18 @@ class Differences:
     @property
     def remarks(self) -> tuple[str, ...]:
         """What the usual law is better in by far, or in the objective at all, each with what to do about it."""
-        remarks, far = list[str](), list[Difference]()
+        remarks, far, in_one_time = list[str](), list[Difference](), True
         for each in self.values:
             change = each.change or 0.0
-            if each.name == self.objective and change >= _SAME:
-                less = 100.0 * change / (1.0 + change)
-                remarks.append(f"{self.usual} has {less:.1f} % less {each.name} than these laws: {_REMEDY}")
-            elif each.name != self.objective and 1.0 + change > _FAR:
+            if each.name == self.objective:
+                # laws of a least time are quicker: what is greater for that needs no remark
+                in_one_time = each.unit != "s"
+                if change >= _SAME:
+                    less = 100.0 * change / (1.0 + change)
+                    remarks.append(f"{self.usual} has {less:.1f} % less {each.name} than these laws: {_REMEDY}")
+            elif 1.0 + change > _FAR:
                 far.append(each)
-        if far:
+        if far and in_one_time:
             known = " and ".join(f"{each.name} is {1.0 + (each.change or 0.0):.3g} times" for each in far)
             names = [each.name.removeprefix("peak ") for each in far if each.name.split()[-1] in _LIMITED]
             of = " and the ".join(names or ["acceleration", "jerk"])
