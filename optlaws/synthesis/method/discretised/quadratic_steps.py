@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
+from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.answer import QUADRATIC, Answer
 from optlaws.synthesis.method.discretised.conic import INFEASIBLE, conic_optimum, usable
@@ -34,6 +35,8 @@ _SHORT_OF = 0.5
 _MOST_DEAR = 1e7
 #: what a residual costs beside the multipliers
 _DEARER, _LEAST_PRICE = 2.0, 10.0
+#: how many tangents are kept
+_TANGENTS = 60
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,6 +79,8 @@ class _Descent:
         self.ends = np.cumsum([0, *(len(grid.u) for grid in points)])
         self.raised = list(self._only_raised())
         self.price = _LEAST_PRICE
+        #: tangents of convex integrals where they were asked: rows, what is beside them, and whose row each is like
+        self.tangents: list[tuple[Array, float, int]] = []
 
     def _only_raised(self) -> Iterator[tuple[int, float, NDArray[np.intp]]]:
         """Variables that cost and are only what some families are at most: their places, factors and families' rows."""
@@ -183,8 +188,12 @@ class _Descent:
                 gradients.append(matrix)
             else:
                 jet = family.jet(x, grid.u, grid.s)
+                if isinstance(family, IntegralFamily) and family.convex:
+                    beside = float(jet.value[0] - jet.gradient[0] @ x)
+                    self.tangents.append((jet.gradient[0], beside, int(sum(map(len, values)))))
                 values.append(jet.value)
                 gradients.append(jet.gradient)
+        del self.tangents[:-_TANGENTS]
         residual, x = np.concatenate(values), x.copy()
         for i, factor, rows_above in self.raised:
             excess = float(residual[rows_above].max())
@@ -211,7 +220,11 @@ class _Descent:
         import clarabel
 
         program, size = self.program, self.program.size
-        gradient = rows.gradient
+        gradient, count = rows.gradient, len(residual)
+        if self.tangents:
+            slopes = np.array([row for row, _, _ in self.tangents])
+            gradient = np.vstack([gradient, slopes])
+            residual = np.append(residual, slopes @ x + [beside for _, beside, _ in self.tangents])
         length = np.linalg.norm(gradient, axis=1)
         finite = np.isfinite(residual) & (length > EMPTY_ROW)
         scale = 1.0 / length[finite]
@@ -231,5 +244,8 @@ class _Descent:
         duals = np.asarray(optimum.z)
         weights = np.zeros(len(residual))
         weights[finite] = np.maximum(duals[len(program.right) : -1], 0.0) * scale
+        for weight, (_, _, row) in zip(weights[count:], self.tangents, strict=True):
+            weights[row] += weight
+        weights = weights[:count]
         x = np.asarray(optimum.x)
         return _Step(x[:-1], weights, duals[: len(program.right)], max(float(x[-1]), 0.0))
