@@ -27,6 +27,8 @@ def polished(program: Program, guess: ActiveSet, holds: Callable[[Array], bool] 
     for _ in range(_CORRECTIONS):
         optimum = newton(program, guess)
         if optimum is None:
+            optimum = newton(program, guess, deficient=True)
+        if optimum is None:
             return None
         guess = settled(program, optimum)
         if guess is optimum and (holds is None or not holds(optimum.x)):

@@ -77,8 +77,16 @@ class _Kinked:
 _Integrals = dict[int, _Kinked]
 
 
-def newton(program: Program, start: ActiveSet) -> ActiveSet | None:
-    """Solve the optimality conditions from `start`; None where that does not converge."""
+def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> ActiveSet | None:
+    """Solve the optimality conditions from `start`; None where that does not converge.
+
+    `deficient` says that they are known to have no unique solution.
+    """
+    if deficient:
+        optimum, _ = _iterated(program, start, {}, deficient=True)
+        # of a contact that is there twice the multipliers of both are open: it is one
+        once = None if optimum is None else optimum.merged(SAME_PLACE)
+        return optimum if once is None or once is optimum else newton(program, once) or optimum
     integrals = _integrals(program, start)
     near, integrals = _iterated(program, start, integrals, enough=_NEWTON_NEAR)
     if near is None:
@@ -107,14 +115,19 @@ def _have_all_kinks(x: Array, integrals: _Integrals) -> bool:
 
 
 def _iterated(
-    program: Program, start: ActiveSet, integrals: _Integrals, *, enough: float = 0.0
+    program: Program,
+    start: ActiveSet,
+    integrals: _Integrals,
+    *,
+    enough: float = 0.0,
+    deficient: bool = False,
 ) -> tuple[ActiveSet | None, _Integrals]:
     """The end of Newton's method, its fixed point or a state after which a step changes less than needed; the kinks."""
     state = start
     previous = np.inf
     for _ in range(_STEPS_WITH_KINKS if integrals else _STEPS):
         system, defect = _conditions(program, state, integrals)
-        step = _step(system, defect)
+        step = _step(system, defect, deficient=deficient)
         if not np.isfinite(step).all():
             return None, integrals
         share, integrals = _with_moved_kinks(integrals, step)
@@ -124,7 +137,7 @@ def _iterated(
         if float(steps.max()) < enough * scale:
             return state, integrals
         size = float(steps[: program.size].max()) / scale
-        # x may stand still where the conditions do not hold: in a singular system, or where the optimum is flat
+        # x may stand still where the conditions do not hold: in a deficient system, or where the optimum is flat
         off = max(float(defects[: program.size].max()), float(defects[program.size :].max(initial=0.0)) / scale)
         if off < _NEWTON_FULFILLED and (size < _NEWTON_CONVERGED or (size < _NEWTON_STALLED and size > previous / 4)):
             wandering = float(steps.max()) > _NEWTON_STILL
@@ -241,12 +254,13 @@ def _conditions(program: Program, state: ActiveSet, integrals: _Integrals) -> tu
     return system, defect
 
 
-def _step(system: Array, defect: Array) -> Array:
+def _step(system: Array, defect: Array, *, deficient: bool) -> Array:
     """Newton's step; where the system has not full rank, the shortest of the best steps."""
-    with suppress(np.linalg.LinAlgError):
-        step: Array = np.linalg.solve(system, -defect).astype(np.float64, copy=False)
-        if np.abs(step).max(initial=0.0) < _WILD:
-            return step
+    if not deficient:
+        with suppress(np.linalg.LinAlgError):
+            step: Array = np.linalg.solve(system, -defect).astype(np.float64, copy=False)
+            if np.abs(step).max(initial=0.0) < _WILD:
+                return step
     # where the optimum is not unique the shortest step leads to one of them
     return np.linalg.lstsq(system, -defect, rcond=DEPENDENT_ROWS)[0].astype(np.float64, copy=False)
 
