@@ -69,6 +69,8 @@ def stepwise_on_points(program: Program, points: list[Points], start: Array, set
     settled
         Of the greatest variable: a step that is less is the last.
     """
+    if not np.isfinite(start).all():
+        return Answer.missing(program, points, "a start that is not finite")
     return _Descent(program, points).answer(start, settled)
 
 
