@@ -22,7 +22,7 @@ from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.motion.quantities import QUANTITIES
-from optlaws.numbers import Array
+from optlaws.numbers import Array, chop
 from optlaws.tolerances import VALUE_ROUNDING
 
 if TYPE_CHECKING:
@@ -116,11 +116,6 @@ class Labels:
         return self.slave if nu == 0 else f"{self.slave}/{self.master}" + (f"^{nu}" if nu > 1 else "")
 
 
-def _zeroed(value: float, other: float) -> float:
-    """0 in place of what is rounding beside the other end of a range."""
-    return 0.0 if abs(value) <= VALUE_ROUNDING * abs(other) else value
-
-
 def program_heading(motion: PiecewiseMotion, labels: Labels, arithmetics: Sequence[FloatingPoint]) -> list[str]:
     """Lines that describe a program's function, its peaks, and the bound of its rounding errors."""
     count, plural = len(motion.coefficients), "s" if len(motion.coefficients) > 1 else ""
@@ -130,8 +125,8 @@ def program_heading(motion: PiecewiseMotion, labels: Labels, arithmetics: Sequen
         f"y(x) in {labels.slave} {interval}: {count} polynomial{plural} of degree {motion.degree}",
         *labels.notes,
         *(
-            f"{name} from {_zeroed(low.value, high.value):.9g} at x = {low.x:.9g} "
-            f"to {_zeroed(high.value, low.value):.9g} at x = {high.x:.9g} {unit}"
+            f"{name} from {chop(low.value, high.value, VALUE_ROUNDING):.9g} at x = {low.x:.9g} "
+            f"to {chop(high.value, low.value, VALUE_ROUNDING):.9g} at x = {high.x:.9g} {unit}"
             for name, low, high, unit in peaks
         ),
     ]
