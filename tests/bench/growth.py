@@ -1,16 +1,12 @@
 """How the time of a result grows with its size, and what its bound leaves: degrees, pieces, segments, counts, points.
 
-`python -m tests.bench.growth` prints a table; with `write` it also writes docs/reference/growth.csv, which the page and
-the picture of the documentation are made from. Times are of the processor, the least of some runs.
+`python -m tests.bench.growth` prints a table. Times are of the processor, the least of some runs.
 """
 
-import csv
 import random
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache, partial
-from pathlib import Path
 from time import process_time
 from typing import Any
 
@@ -34,9 +30,7 @@ from optlaws import (
     synthesize,
     synthesize_array,
 )
-from tests.documents import ROOT
 
-STORED = ROOT / "docs" / "reference" / "growth.csv"
 DEGREES = (3, 5, 9, 13, 19, 29, 39, 61, 81, 101, 151, 200)
 PIECES = (2, 4, 8, 16, 32, 50, 100, 150, 200)
 SEGMENTS = (2, 5, 10, 20, 50, 100, 200)
@@ -213,24 +207,12 @@ def exponent(rows: list[Measured]) -> float:
     return float(np.polyfit(np.log([row.size for row in last]), np.log([row.seconds for row in last]), 1)[0])
 
 
-def stored(rows: list[Measured], place: Path = STORED) -> None:
-    """Write what was measured, for the page and the picture."""
-    with place.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["kind", "counted", "size", "seconds", "status", "gap"])
-        for row in rows:
-            gap = "" if row.gap is None else f"{max(row.gap, 0.0):.1e}"
-            writer.writerow([row.name, row.counted, row.size, f"{row.seconds:.3g}", row.status, gap])
-
-
-def main(*arguments: str) -> None:
-    """Measure once and print; "write" stores the figures of the documentation."""
+def main() -> None:
+    """Measure once and print."""
     printed = Table("kind", "sizes", "seconds", "exponent", "greatest gap", "status", title="growth")
-    every: list[Measured] = []
     for growth in GROWTHS:
         growth.run(growth.sizes[0])
         rows = [measured(growth, size) for size in growth.sizes]
-        every += rows
         gaps = [row.gap for row in rows if row.gap is not None]
         printed.add_row(
             growth.name,
@@ -241,9 +223,7 @@ def main(*arguments: str) -> None:
             ", ".join(sorted({row.status for row in rows if row.status})),
         )
     Console(width=140).print(printed)
-    if arguments == ("write",):
-        stored(every)
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main()

@@ -1,4 +1,4 @@
-"""The ends of what the page on growth promises: the greatest degrees, pieces and segments have laws and proofs."""
+"""What the section on greatest sizes promises: the greatest degrees, pieces and segments have laws and proofs."""
 
 from fractions import Fraction
 
