@@ -124,11 +124,11 @@ def draw_motions(types: Mapping[str, DwellMechanism]) -> Figure:
             left.plot(place, ways, color=BLUES[3], linestyle="--")
             right.plot(place, mechanism.motion.b(k) / mechanism.cycle, color=GREEN)
             left.set_title(f"type {kind}")
-            left.set_ylabel("position (S)")
-            right.set_ylabel("speed (S per radian)")
+            left.set_ylabel("position, S")
+            right.set_ylabel("speed, S per radian")
             left.set(xlim=(0.0, degrees(mechanism.cycle)), xticks=np.arange(0.0, degrees(mechanism.cycle) + 1.0, 45.0))
         for axes in panels[-1]:
-            axes.set_xlabel("cam angle (degrees)")
+            axes.set_xlabel("cam angle, deg")
         lines = panels[0][0].lines[:2]
         used = [
             name for name in SHADES if any(name == s.name for mechanism in types.values() for s in mechanism.sections)

@@ -164,7 +164,7 @@ def draw_first(spec: Types) -> Figure:
                 sizes = [spec.types(scenario, swing, 0.0, dwell)["I"].a for dwell in dwells.tolist()]
                 label = f"swing {swing:g}°, {scenario.name}"
                 axes.plot(dwells, sizes, color=shade, linestyle=stroke, label=label)
-        axes.set(xlabel="dwell (degrees)", ylabel="a: greatest radius over that of the executive cam")
+        axes.set(xlabel="dwell, deg", ylabel="a: greatest radius over that of the executive cam")
         axes.set(title=f"Cam of the loader of type I, law {spec.law}", ylim=(1.0, None))
         axes.legend(loc="upper left")
         return figure
@@ -185,7 +185,7 @@ def draw_all(spec: Types) -> Figure:
                 if j == 0:
                     axes.set_ylabel("a: size of the cam")
                 if i == rows - 1:
-                    axes.set_xlabel("dwell (degrees)")
+                    axes.set_xlabel("dwell, deg")
         figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=5)
         return figure
 
@@ -241,11 +241,11 @@ def draw_map(law: MotionLaw, limits: Sequence[float], clutch_angles: Sequence[fl
                 axes.text(0.5 * (low + high), clutches[middle], kind, ha="center", va="center", fontsize=13.0)
             for place in RULE:
                 line = axes.axvline(place, color=WARM, linestyle="--", linewidth=1.3)
-            axes.set(xlim=(0.0, _WHOLE), ylim=tuple(clutch_angles), xlabel="dwell (degrees)")
+            axes.set(xlim=(0.0, _WHOLE), ylim=tuple(clutch_angles), xlabel="dwell, deg")
             axes.set_title(f"b ≤ {limit:g} I1/I")
             axes.grid(visible=False)
             axes.set_xticks([0, *RULE, _WHOLE])
-        panels[0].set_ylabel("clutch angle (degrees)")
+        panels[0].set_ylabel("clutch angle, deg")
         figure.legend([line], ["the paper's rule: I up to 45°, II above 100°"], loc="outside lower center")
         return figure
 

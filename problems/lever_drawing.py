@@ -196,8 +196,8 @@ def draw_motion(lever: TorsionLever) -> Figure:
         left.plot(angle, lever.taylor_moment(chi), "--", color=WARM, label="third degree, eq. (4)")
         left.plot(angle, lever.n * chi, color=GREY, linewidth=1.0, label="linear, n chi")
         left.set(
-            xlabel="deviation of the driven link (degrees)",
-            ylabel="moment / c1 (radians)",
+            xlabel="deviation of the driven link, deg",
+            ylabel="moment / c1, radians",
             title="Moment of the bars on the driven link",
         )
         left.legend(loc="upper left")

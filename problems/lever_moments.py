@@ -123,7 +123,7 @@ def _panel(axes: Axes, beta: float, drawn: Sequence[Drawn]) -> None:
         axes.plot(np.degrees(chi), case.lever.moment(chi), color=colour, linestyle=dashes, label=case.name)
     axes.axhline(0.0, color=GREY, linewidth=0.8)
     axes.axvline(0.0, color=GREY, linewidth=0.8)
-    axes.set(xlabel="deviation of the driven link (degrees)", ylabel="moment M_R / c1 (radians)")
+    axes.set(xlabel="deviation of the driven link, deg", ylabel="moment M_R / c1, radians")
     axes.set_title(f"beta = {beta:g}")
     axes.legend(loc="upper left", fontsize=8.0)
 

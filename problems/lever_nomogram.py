@@ -93,13 +93,13 @@ def _draw_row(left: Axes, right: Axes, curves: Mapping[float, Sequence[TorsionLe
         _curve(right, beta, levers, lambda lever: lever.xi, colour)
     for axes in (left, right):
         _head(axes)
-    left.set(ylabel="gamma01 (degrees)")
+    left.set(ylabel="gamma01, deg")
     right.set(ylabel="xi = c2/c1 (dimensionless)", yscale="log")
     right.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     right.yaxis.set_major_formatter(FormatStrFormatter("%g"))
     right.yaxis.set_minor_locator(NullLocator())
     for axes in (left, right):
-        axes.set_xlabel("swing of the driven link (degrees)")
+        axes.set_xlabel("swing of the driven link, deg")
         axes.margins(x=0.12, y=0.09)
 
 

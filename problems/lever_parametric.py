@@ -194,7 +194,7 @@ def draw(betas: Sequence[float], groups: Sequence[Group]) -> Figure:
             axes.axhline(harmonic, color=GREY, linewidth=1.0, zorder=1)
             axes.set(ylabel=f"{name} (dimensionless)", title=f"{name.split()[-1]}, {half}")
         for axes in rows[1]:
-            axes.set_xlabel("swing of the driven link (degrees)")
+            axes.set_xlabel("swing of the driven link, deg")
         handles = [rows[0][0].plot([], [], color=colours[beta], linewidth=5.0)[0] for beta in betas]
         labels = [f"beta = {beta:g}" + (" (harmonic)" if beta == 1.0 else "") for beta in betas]
         figure.legend(handles, labels, loc="outside right upper")

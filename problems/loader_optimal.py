@@ -212,7 +212,7 @@ def _over_B(axes: Axes, rows: Sequence[Row]) -> None:
 def _pair(axes: Axes, row: Row) -> None:
     k = np.linspace(0.0, 1.0, 801)
     rival = row.rivals["C no greater"] or row.best
-    for balanced, colour, name in ((row.loader, WARM, row.code), (rival.loader, BLUES[2], "rival")):
+    for balanced, colour, name in ((row.loader, WARM, row.code), (rival.loader, BLUES[2], "least C of the loader")):
         axes.plot(k, balanced.executive.c(k), color=colour, label=f"{name}: executive c")
         axes.plot(k, balanced.law.c(k), color=colour, linestyle="--", label=f"{name}: loader c")
     axes.set(xlabel="k (dimensionless time)", ylabel="acceleration")

@@ -233,9 +233,7 @@ def _residuals(axes: Axes, laws: Sequence[Compared], between: tuple[float, float
         amplitudes = frequencies**2 * np.abs(residual_phasor(law.cam, frequencies, design.damping))
         axes.semilogy(frequencies, np.maximum(amplitudes, _LEAST / 10), label=law.name, **style)
     axes.axvspan(*design.between, color="#f2f2f2", zorder=0)
-    axes.plot(
-        design.between, [design.residual] * 2, color="black", linewidth=0.9, linestyle=":", label="most that is asked"
-    )
+    axes.plot(design.between, [design.residual] * 2, color="black", linewidth=0.9, linestyle=":", label="upper bound")
     axes.set(xlim=between, ylim=(_LEAST, None), ylabel="residual acceleration")
 
 

@@ -18,5 +18,5 @@ for name, move in moves.items():
     plt.plot([1e3 * move.duration * place for place in k], acceleration, label=f"{name}: {1e3 * move.duration:.1f} ms")
 for limit in (-8, 12):
     plt.axhline(limit, linestyle=":")
-plt.gca().set(xlabel="time in ms", ylabel="acceleration in m/s²")
+plt.gca().set(xlabel="time, ms", ylabel="acceleration, m/s²")
 plt.legend()

@@ -326,6 +326,6 @@ def _panels(spec: MachineLawsProblemFile, machine: Machine, laws: Sequence[Compa
     left = []
     for number in spec.vibration.modes:
         curves = tuple(law.curve(100.0 * (factors - 1.0), law.left(number, factors)) for law in shown)
-        left.append(Panel(f"mode {number} left in {spec.titled(output)}", "", curves))
+        left.append(Panel(f"residual of mode {number} in {spec.titled(output)}", "", curves))
     moved = (law.curve(k, machine.response(law.law, dwell=figure.dwell)[figure.output](k)) for law in shown)
     return left, Panel(spec.titled(figure.output), "", tuple(moved))

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from optlaws.shown.report import Panel
 
 _HALF = 0.34  # of a bar's height; rows are 1 apart
+_NEAR_TITLE = 0.8  # of the height of a panel: words above a higher point would meet its title
 
 
 def draw_interlocked(
@@ -138,7 +139,10 @@ def _plane(report: AxesReport, interlock: int | str, axes: Axes | None, style: d
 def _least(axes: Axes, least: LeastClearance, point: tuple[float, float], *, right: bool) -> list[Artist]:
     """A point with the least clearance in words on one side of it."""
     colour = GREEN if least.status == "clear" else WARM
-    words = name_point(axes, least.text, point, at=(6.0 if right else -6.0, 4.0))
+    bottom, top = axes.get_ylim()
+    # above the point there is room for words, but not beneath the title
+    high = point[1] > bottom + _NEAR_TITLE * (top - bottom)
+    words = name_point(axes, least.text, point, at=(6.0 if right else -6.0, -12.0 if high else 4.0))
     return [*axes.plot(*point, "o", color=colour, markersize=4.5), words]
 
 

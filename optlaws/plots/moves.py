@@ -45,7 +45,7 @@ def motion_figure(move: FastestMove, title: str) -> Figure:
         figure = empty_figure(7.2, 1.6 * len(report.panels))
         axes = list(figure.subplots(len(report.panels), 1, sharex=True))
         draw_panels(report.panels, report.segments, axes)
-        axes[-1].set_xlabel("time in ms; dashed: limits")
+        axes[-1].set_xlabel("time, ms; dashed: limits")
         figure.align_ylabels()
         return titled(figure, title)
 
@@ -65,7 +65,7 @@ def strokes_figure(moves: Sequence[FastestMove], title: str) -> Figure:
         axes.plot(strokes, times, color=BLUES[-1], marker="o", markersize=3.0, label=label)
         if not np.isnan(limits).all():
             axes.plot(strokes, limits, color=GREY, linewidth=1.0, label="best possible")
-        axes.set(xlabel=f"stroke in {unit}", ylabel="time in ms")
+        axes.set(xlabel=f"stroke, {unit}", ylabel="time, ms")
         axes.set_ylim(bottom=0.0, top=_ROOM * float(times.max()))
         axes.legend(loc="upper left")
         return titled(figure, title)
