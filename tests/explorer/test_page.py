@@ -374,9 +374,12 @@ def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Serv
     settle(page)
     assert "no undercut" in page.locator("#cam-trust").inner_text()
     assert page.locator("#cam-curves svg").count() == 3
-    lowest = float(page.locator(".roller").get_attribute("cy") or "nan")
+    roller = page.locator(".roller")
+    lowest, radius = (float(roller.get_attribute(name) or "nan") for name in ("cy", "r"))
     page.get_by_label("Angle of the cam, degrees").fill("165")
-    assert float(page.locator(".roller").get_attribute("cy") or "nan") == pytest.approx(lowest + 35.0, abs=1e-3)
+    # to the scale of the roller of 12 mm
+    lift = (lowest - float(roller.get_attribute("cy") or "nan")) * 12.0 / radius
+    assert lift == pytest.approx(35.0, abs=1e-3)
     page.get_by_role("button", name="Run").click()
     page.wait_for_timeout(150)
     page.get_by_role("button", name="Pause").click()

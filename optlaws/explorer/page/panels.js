@@ -8,8 +8,8 @@
 //
 // Wheel, drag, + and - zoom and move; arrow keys move the cursor from place to place, Page keys from peak to peak.
 
-import { createRoom, frame, label, scale, ticks, ticksIn } from "./chart.js";
-import { button, draggable, html, path, setAttributes, sized, svg } from "./svg.js";
+import { drawLayers, frame, label, scale, ticks, ticksIn } from "./layers.js";
+import { button, draggable, html, setAttributes, sized, svg } from "./svg.js";
 import { number, panelsInUnits, variableOf } from "./units.js";
 
 /** A place along the variable of pictures that are read together: it follows the pointer, and stays where it was put. */
@@ -79,20 +79,6 @@ function createSpan() {
 }
 
 const TOUCHING = 6; // pixels
-
-/** Marks of peaks at [x, y] in pixels; where there is no room for a value, its mark alone is drawn. */
-function peakMarks(peaks, place, box, law) {
-  const room = createRoom(box, peaks.map(place));
-  const circles = [];
-  return peaks.flatMap((peak) => {
-    const at = place(peak);
-    if (at[0] < box.left - 0.5 || at[0] > box.right + 0.5 || circles.some(([x, y]) => Math.hypot(x - at[0], y - at[1]) < TOUCHING)) return [];
-    circles.push(at);
-    const text = peak.text ?? number(peak.value);
-    return [svg("g", { class: `peak law-${law}` }, svg("circle", { cx: at[0].toFixed(1), cy: at[1].toFixed(1), r: 3 }), room(at, text, { above: peak.value > 0 }) ?? svg("title", { text }))];
-  });
-}
-
 const BOX = { left: 64, right: 14, top: 20, bottom: 6 };
 const FOOT = 34;
 const ROOM = 17; // pixels above and below the curve for what is written at its peaks
@@ -102,6 +88,11 @@ const LAWS = "ABCD";
 
 /** The least and the greatest value of a limit; null is none, and a value alone is that of both sides. */
 const edges = ({ value, least = -value }) => [least ?? -Infinity, value ?? Infinity];
+/** Where the motion must not go: above and below a limit. */
+const zones = (limit) => {
+  const [least, value] = edges(limit);
+  return [{ from: limit.from, to: limit.to, low: value }, { from: limit.from, to: limit.to, high: least }].map((one) => ({ ...one, name: "zone" }));
+};
 const titled = ({ name, unit }) => (unit ? `${name}, ${unit}` : name);
 
 /** One quantity over the variable: its curves, its limits, its peaks, and what a cursor reads of it. It is told the answer, the
@@ -125,24 +116,28 @@ function createPanel(panel, { answer, span, zoomed, active, beyond, name, segmen
     const xs = !zoomed && answer.ticks ? answer.ticks : ticksIn(answer.unit, span, 8);
     const ys = ticks(low, high, Math.min(4, Math.max(2, Math.floor((box.bottom - box.top) / 18))));
     const broken = beyond.flatMap(([from, to]) => limits.map((limit) => ({ ...limit, from: Math.max(from, limit.from), to: Math.min(to, limit.to) })));
-    const over = zonesOf(broken.filter(({ from, to }) => from < to));
-    const joints = segments.map(({ at: [from] }) => x(from)).filter((at) => at > box.left).map((at) => svg("line", { class: "joint", x1: at, x2: at, y1: box.top, y2: box.bottom }));
-    const drawn = series.map(({ at, values, law, dots, name: title }) => {
-      const line = at.map((one, i) => (values[i] === null ? null : [x(one), y(values[i])]));
-      return { law, title, dots, d: dots ? line.filter(Boolean).map((place) => `${path([place])}h0`).join("") : path(line) };
-    });
+    const over = broken.filter(({ from, to }) => from < to).flatMap(zones);
+    const curves = series.map(({ at, values, law, dots, name: title }) => ({
+      name: `line law-${law}${law === own.law ? " active" : ""}${dots ? " dots" : ""}`, law, title, dots, points: at.map((one, i) => [one, values[i]]),
+    }));
     // the first law lies above the others, the active one above all
-    const order = drawn.toReversed().sort((one, other) => (one.law === own.law) - (other.law === own.law));
-    const lines = order.map(({ law, d, dots, title }) => svg("path", { class: `line law-${law}${law === own.law ? " active" : ""}${dots ? " dots" : ""}`, d }, title ? svg("title", { text: title }) : null));
-    if (over.length && drawn.length) lines.push(svg("path", { class: "beyond", d: drawn[0].d, "clip-path": `url(#beyond-${name})` }));
+    const order = curves.toReversed().sort((one, other) => (one.law === own.law) - (other.law === own.law));
+    const joints = segments.map(({ at: [from] }) => from).filter((from) => x(from) > box.left).map((from) => ({ name: "joint", points: [box.top, box.bottom].map((end) => [from, y.back(end)]) }));
+    const circles = [];
+    const apart = ({ at, value }) => {
+      const [left, top] = [x(at), y(value)];
+      if (left < box.left - 0.5 || left > box.right + 0.5 || circles.some((one) => Math.hypot(one[0] - left, one[1] - top) < TOUCHING)) return false;
+      return circles.push([left, top]);
+    };
     return [
       frame(box, x, y, { xs, ys, xlabels: last, xname: last ? variableOf(answer) : "", unit: answer.unit }),
       svg("text", { class: "title", x: box.left, y: 13, text: titled(panel) }),
       panel.note ? svg("text", { class: "limit-name", x: box.left + WRITTEN * (titled(panel).length + 2), y: 13, text: panel.note }) : null,
-      svg("clipPath", { id: `inside-${name}` }, svg("rect", { x: box.left, y: box.top - 8, width: box.right - box.left, height: box.bottom - box.top + 14 })),
-      svg("clipPath", { id: `beyond-${name}` }, ...over),
-      svg("g", { "clip-path": `url(#inside-${name})` }, ...zonesOf(limits), ...joints, ...lines),
-      ...peakMarks(peaks, (peak) => [x(peak.at), y(peak.value)], box, own?.law ?? 0),
+      ...drawLayers({
+        zones: limits.flatMap(zones),
+        lines: [...joints, ...order, ...(over.length && curves.length ? [{ name: "beyond", points: curves[0].points, within: over }] : [])],
+        marks: peaks.filter(apart).map(({ at, value, text = number(value) }) => ({ at: [at, value], name: `peak law-${own?.law ?? 0}`, r: 3, text, above: value > 0 })),
+      }, { box, toX: x, toY: y, name }).ground,
     ];
   }
 
@@ -179,15 +174,6 @@ function createPanel(panel, { answer, span, zoomed, active, beyond, name, segmen
       return sign * Math.max(used, ...near, ...(panel.span ?? []).map((value) => sign * value));
     };
     return [side(-1, 0), side(1, 1)];
-  }
-
-  /** Where the motion must not go: above and below the limits of each segment. */
-  function zonesOf(all) {
-    const zone = ({ from, to }, top, bottom) => (bottom > top ? [svg("rect", { class: "zone", x: x(from), width: x(to) - x(from), y: top, height: bottom - top })] : []);
-    return all.flatMap((limit) => {
-      const [least, value] = edges(limit);
-      return [...zone(limit, box.top, Math.max(box.top, y(value))), ...zone(limit, Math.min(box.bottom, y(least)), box.bottom)];
-    });
   }
 
   return { at, nearest, places, peaks: peaks.map((peak) => peak.at), read, element };

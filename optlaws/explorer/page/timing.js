@@ -1,8 +1,9 @@
 // The timing diagram of axes: a row for each, moves as bars that are dragged, and what interlocks say between rows. What stands
 // before and after a move grows and shrinks, the rest of the cycle stays.
 
-import { frame, scale, ticksIn } from "./chart.js";
-import { draggable, html, path, renew, setAttributes, sized, svg } from "./svg.js";
+import { createChart } from "./chart.js";
+import { shortened } from "./layers.js";
+import { html } from "./svg.js";
 import { variableOf, written as inUnits } from "./units.js";
 
 const STEPS = [1, 2, 5];
@@ -68,161 +69,102 @@ function longer(segment, { from, to }, by, period) {
   return segment.kind === "dwell" ? segment : { ...segment, duration: written(to - from + by, { unit: "deg", of: 1 }) };
 }
 
-const BOX = { left: 84, right: 16, top: 8, foot: 40 };
+const MARGINS = { left: 84, right: 32, top: 8, bottom: 40 };
 const TURN = [0, 360];
-const ROW = { least: 58, most: 92, name: 15 };
+const ROW = { least: 58, most: 92, top: 18, bottom: 4 };
 const ABOUT = 276; // pixels that all rows take where they can
-const EDGE = 7; // pixels at the ends of a bar by which it is made longer or shorter
-const SHORT = 30; // a bar of fewer pixels is moved only
 
-/** `changed(row, segments)` is told the segments of a row whose bar was moved; null is that it is taken or let go. */
+/** `changed(row, segments)` is told the segments of a row whose bar was moved; null is that it was let go. */
 export function createTiming(root, changed) {
   let shown = null;
+  let picture = null;
+  let points = null; // where the rows are at an angle
   let studyShown = null;
-  let toX = null;
-  let keyed = null;
-  const cursor = svg("line", { class: "cursor run" });
+  let dragged = null; // a bar, from where it was taken
+  let keyed = null; // a bar that keys move before their answer comes, so that they add up
   let angleNow = null;
-  let marks = [];
-  let statesShown = [];
-  const drawing = svg("svg", { class: "curve timing", role: "group", "aria-label": "Timing diagram" });
-  draggable(drawing, grasp, pull, ({ row }) => changed(row, null));
-  const size = sized(root, draw);
+  const none = html("div", { class: "nothing", hidden: true }, html("strong"), html("span", { text: "there is nothing to draw" }));
+  root.append(none);
+  const chart = createChart(root, pulled);
 
   /** An answer of the axes for a study, the status of each interlock, where it is known, and whether it is the last one. */
   function show(answer, study, states = [], last = true) {
     if (last) keyed = null;
     shown = answer;
     studyShown = study;
-    statesShown = states;
-    draw();
+    none.hidden = !answer.refused;
+    none.firstElementChild.textContent = answer.refused?.word ?? "";
+    picture = answer.refused ? null : pictured(states);
+    turn(angleNow);
   }
 
   /** The cursor stands at an angle of the master. */
   function turn(angle) {
     angleNow = angle;
-    for (const mark of [cursor, ...marks.map(({ mark }) => mark)]) mark.setAttribute("visibility", angle === null ? "hidden" : "visible");
-    if (!toX || angle === null) return;
-    const at = toX(angle).toFixed(1);
-    setAttributes(cursor, { x1: at, x2: at });
-    for (const { row, y, mark } of marks) setAttributes(mark, { cx: at, cy: y(valueAt(shown.at, row.values, angle)).toFixed(1) });
+    chart.show(picture && { ...picture, of: picture, cursor: angle, points: angle === null ? [] : points(angle) });
   }
 
-  function draw() {
-    const width = size()[0] - 16;
-    if (!shown || width < 100) return;
-    if (shown.refused) {
-      root.replaceChildren(html("div", { class: "nothing" }, html("strong", { text: shown.refused.word }), html("span", { text: "there is nothing to draw" })));
-      return;
-    }
-    const { rows, unit } = shown;
+  function pictured(states) {
+    const { rows, unit, arrows } = shown;
     const each = Math.min(ROW.most, Math.max(ROW.least, Math.floor(ABOUT / rows.length)));
-    const height = BOX.top + each * rows.length + BOX.foot;
-    const box = { left: BOX.left, right: width - BOX.right, top: BOX.top, bottom: height - BOX.foot };
-    toX = scale(TURN, [box.left, box.right]);
-    setAttributes(drawing, { width, height });
-    const scales = rows.map(({ values }, i) => {
-      const top = BOX.top + each * i;
+    const heights = rows.map(({ values }) => {
       const [low, high] = [Math.min(...values), Math.max(...values)];
-      return scale(low < high ? [low, high] : [low - 1, low + 1], [top + each - 4, top + ROW.name + 3]);
+      const [top, bottom] = [ROW.top / each, 1 - ROW.bottom / each];
+      return (value) => bottom - ((low < high ? (value - low) / (high - low) : 0.5) * (bottom - top));
     });
-    marks = rows.map((row, i) => ({ row, y: scales[i], mark: svg("circle", { class: `point law-${i % 4}`, r: 4 }) }));
-    setAttributes(cursor, { y1: box.top, y2: box.bottom });
-    renew(
-      drawing,
-      frame(box, toX, scales[0], { xs: ticksIn(unit, TURN, 8), ys: [], xname: variableOf(shown), unit }),
-      ...rows.map((row, i) => drawRow(row, i, scales[i], box, each)),
-      ...shown.arrows.flatMap((arrow) => drawArrow(arrow, scales)),
-      cursor,
-      ...marks.map(({ mark }) => mark),
-    );
-    if (drawing.parentNode !== root) root.replaceChildren(drawing);
-    turn(angleNow);
+    const at = (row, place, value) => [place, row + heights[row](value)];
+    points = (angle) => rows.map(({ values }, row) => ({ at: at(row, angle, valueAt(shown.at, values, angle)), name: `point law-${row % 4}`, r: 4 }));
+    const status = ({ rule, clear }) => states[rule] ?? (clear === false ? "broken" : "clear");
+    const said = arrows.map((arrow) => ({ ...arrow, name: `interlock ${status(arrow)}`, title: `${arrow.name}: ${status(arrow)}` }));
+    const ends = said.filter(({ window }) => !window).map((one) => ({ ...one, to: at(one.rows[0], ...one.to), from: one.from && at(one.rows[1], ...one.from) }));
+    const bars = rows.flatMap((row, i) => row.bars.filter(({ moves }) => moves).map((bar, place) => ({ row, i, bar, place })));
+    return {
+      x: { range: TURN, unit, name: variableOf(shown) },
+      y: { range: [rows.length, 0], ticks: [] },
+      margins: MARGINS, height: MARGINS.top + each * rows.length + MARGINS.bottom,
+      zones: said.filter(({ window }) => window).map(({ window: [from, to], rows: [one, other], name, title }) => {
+        const [low, high] = [one, other].map((row) => row + heights[row](rows[row].values[0]));
+        return { from, to, low: Math.max(low, high), high: Math.min(low, high), name: `${name} window`, title };
+      }),
+      lines: [
+        ...rows.map((_, i) => ({ name: "grid", points: TURN.map((end) => [end, i + 1]) })),
+        ...rows.map(({ values }, i) => ({ name: `line active law-${i % 4}`, points: shown.at.map((place, k) => at(i, place, values[k])) })),
+        ...ends.filter(({ from }) => from).map(({ from, to, name, title }) => ({ name, title, head: true, points: [from, to] })),
+      ],
+      marks: ends.map(({ from, to, name, title }) => ({ at: from ?? to, name, title, r: from ? 3 : 4 })),
+      labels: rows.flatMap(({ name, cells: [stroke] }, i) => [["title", name, 0], ["", inUnits(stroke), -15]].map(([look, text, up]) => ({ at: [0, i + 0.5], text: shortened(text, 12), title: text, name: look, up, anchor: "end", aside: 6 }))),
+      handles: bars.map(({ row, i, bar, place }) => ({ ...told(row, bar), key: `bar ${i} ${place}`, from: bar.from, to: bar.to, low: i + 1, high: i, name: `law-${i % 4}` })),
+      told: `Timing diagram: ${[...bars.map(({ row, bar }) => `${row.name}, ${bar.name} ${told(row, bar).text}`), ...said.map(({ title }) => title)].join("; ")}`,
+    };
   }
 
-  function drawRow(row, i, y, box, each) {
-    const top = BOX.top + each * i;
-    const group = svg("g", { class: `row law-${i % 4}` });
-    group.append(svg("line", { class: "grid", x1: 0, x2: box.right, y1: top + each, y2: top + each }));
-    group.append(svg("text", { class: "title", translate: "no", x: 4, y: top + each / 2, text: shortened(row.name, 12) }, svg("title", { text: row.name })));
-    group.append(svg("text", { x: 4, y: top + each / 2 + 15, text: row.stroke }));
-    const line = svg("path", { class: "line active", d: path(shown.at.map((at, k) => [toX(at), y(row.values[k])])) });
-    group.append(...row.bars.filter(({ moves }) => moves).map((bar, place) => drawBar(row, i, bar, place, top, each)), line);
-    return group;
+  function told({ name }, { name: move, from, to }) {
+    const angle = (value) => inUnits({ value: Number(value.toFixed(2)), unit: "deg", digits: 5 });
+    const short = `${move} ${angle(to - from)}`;
+    return { label: `${name}: ${move}`, text: `from ${angle(from)} to ${angle(to)}`, short, title: `${name}: ${short}. Drag it, or its ends; ← → move it, ↑ ↓ make it longer and shorter` };
   }
 
   /** A bar is known by its place among the moves of its axis, which dwells that come and go do not change. */
-  function drawBar(row, i, bar, place, top, each) {
-    const number = row.bars.indexOf(bar);
-    const [from, to] = [toX(bar.from), toX(bar.to)];
-    const angle = (value) => inUnits({ value: Number(value.toFixed(2)), unit: "deg", digits: 5 });
-    const text = `${bar.name} ${angle(bar.to - bar.from)}`;
-    const edges = to - from >= SHORT ? [["start", from], ["stop", to - EDGE]] : [];
-    const group = svg(
-      "g",
-      {
-        class: "timing-bar", tabindex: 0, role: "slider", "data-key": `bar ${i} ${place}`,
-        "aria-label": `${row.name}: ${bar.name}`, "aria-valuemin": 0, "aria-valuemax": 360, "aria-valuenow": Number(bar.from.toFixed(2)),
-        "aria-valuetext": `from ${angle(bar.from)} to ${angle(bar.to)}`,
-        "data-row": i, "data-number": number, onkeydown: (event) => key(event, i, number),
-      },
-      svg("title", { text: `${row.name}: ${text}. Drag it, or its ends; ← → move it, ↑ ↓ make it longer and shorter` }),
-      svg("rect", { class: "ground", x: from, width: Math.max(1, to - from), y: top + 1, height: each - 2, rx: 3 }),
-      ...edges.map(([end, x]) => svg("rect", { class: "edge", x, width: EDGE, y: top + 1, height: each - 2, "data-end": end })),
-    );
-    const letters = Math.floor((to - from - 6) / 6);
-    if (letters > 3) group.append(svg("text", { x: from + 4, y: top + ROW.name - 3, text: shortened(text, letters) }));
-    return group;
-  }
-
-  /** What interlocks say: an arrow from what comes first, or the window in which two run together. */
-  function drawArrow({ rule, name, rows, from, to, clear, window }, scales) {
-    const word = statesShown[rule] ?? (clear === false ? "broken" : "clear");
-    const look = `interlock ${word}`;
-    if (window) {
-      const [top, bottom] = rows.map((row) => scales[row](shown.rows[row].values[0])).toSorted((a, b) => a - b);
-      return [svg("rect", { class: `${look} window`, x: toX(window[0]), width: toX(window[1]) - toX(window[0]), y: top, height: bottom - top }, svg("title", { text: `${name}: ${word}` }))];
+  function pulled(key, pull) {
+    const [row, place] = key.split(" ").slice(1).map(Number);
+    if (pull === null) {
+      dragged = null;
+      return changed(row, null);
     }
-    const end = [toX(to[0]), scales[rows[0]](to[1])];
-    const dot = ([cx, cy], r) => svg("circle", { class: look, cx: cx.toFixed(1), cy: cy.toFixed(1), r });
-    if (!from) return [dot(end, 4)];
-    const start = [toX(from[0]), scales[rows[1]](from[1])];
-    const title = svg("title", { text: `${name}: ${word}` });
-    return [svg("g", { class: look, role: "img", "aria-label": `${name}: ${word}` }, title, svg("path", { class: "shaft-of-arrow", d: path([start, end]) }), svg("path", { class: "head-of-arrow", d: head(start, end) }), dot(start, 3))];
-  }
-
-  function grasp(event) {
-    const bar = event.target.closest(".timing-bar");
-    if (!bar) return null;
-    const [row, number] = [bar.dataset.row, bar.dataset.number].map(Number);
-    bar.focus({ preventScroll: true });
-    changed(row, null);
-    return { row, number, ends: event.target.dataset.end ?? "both", bars: shown.rows[row].bars, study: studyShown, period: shown.period, x: event.clientX };
-  }
-
-  function pull(drag, event) {
-    const by = toX.back(event.clientX) - toX.back(drag.x);
-    to(drag, { start: drag.ends === "stop" ? 0 : by, stop: drag.ends === "start" ? 0 : by }, drag.ends);
+    const { bars } = shown.rows[row];
+    const begun = () => ({ key, row, bars, number: bars.indexOf(bars.filter(({ moves }) => moves)[place]), study: studyShown, period: shown.period, by: [0, 0] });
+    if (!pull.keys) return to((dragged ??= begun()), pull.end === "stop" ? 0 : pull.by, pull.end === "start" ? 0 : pull.by, pull.end);
+    if (keyed?.key !== key) keyed = begun();
+    const { step } = roomOf(keyed.study.axis[row].segment[keyed.number], keyed.period);
+    keyed.by = keyed.by.map((by, i) => by + step * pull.keys[i]);
+    return to(keyed, ...keyed.by, "keys");
   }
 
   /** The ends of a bar go by so many degrees from where they were; a pointer takes them to round instants. */
-  function to({ row, number, bars, study, period }, { start, stop }, ends) {
+  function to({ row, number, bars, study, period }, start, stop, ends) {
     const { from, to } = bars[number];
     const segments = moved(study.axis[row].segment, bars, number, { start: from + start, stop: to + stop }, { ends, snaps: ends !== "keys", period });
     if (segments) changed(row, segments);
-  }
-
-  function key(event, row, number) {
-    const bars = shown.rows[row].bars;
-    const step = roomOf(studyShown.axis[row].segment[number], shown.period).step * (event.shiftKey ? 10 : 1);
-    const [start, stop] = { ArrowLeft: [-step, -step], ArrowRight: [step, step], ArrowDown: [0, -step], ArrowUp: [0, step] }[event.key] ?? [];
-    if (start === undefined) return;
-    event.preventDefault();
-    // keys that come before their answer add up
-    if (keyed?.row !== row || keyed.number !== number) keyed = { row, number, bars, study: studyShown, period: shown.period, by: { start: 0, stop: 0 } };
-    const { by } = keyed;
-    keyed.by = { start: by.start + start, stop: by.stop + stop };
-    to(keyed, keyed.by, "keys");
   }
 
   return { show, turn };
@@ -238,14 +180,4 @@ export function valueAt(places, values, at) {
   }
   const share = (at - places[low]) / (places[high] - places[low] || 1);
   return values[low] + Math.min(1, Math.max(0, share)) * (values[high] - values[low]);
-}
-
-const shortened = (text, most) => (text.length > most ? `${text.slice(0, Math.max(1, most - 1))}…` : text);
-
-function head([x1, y1], [x2, y2]) {
-  const size = Math.hypot(x2 - x1, y2 - y1) || 1;
-  const [u, v] = [(x2 - x1) / size, (y2 - y1) / size];
-  const [back, half] = [9, 3.6];
-  const corner = (side) => [x2 - back * u - side * half * v, y2 - back * v + side * half * u];
-  return `${path([[x2, y2], corner(1), corner(-1)])}Z`;
 }

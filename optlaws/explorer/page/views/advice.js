@@ -1,9 +1,10 @@
 // The view of advice: which law the motion of a cycle or of a machine should have. Standard and optimal laws side by side
 // with all their measures, the recommended one in two sentences, the front, and curves of it beside the usual law.
 
-import { createChart, spanOf } from "../chart.js";
+import { createChart } from "../chart.js";
 import { choice, createForm, entry } from "../form.js";
 import { Latest, unanswered } from "../latest.js";
+import { spanOf } from "../layers.js";
 import { column, fragment, group, growing, laidOut, panel, part, picture, status, swatch } from "../layout.js";
 import { createPanels } from "../panels.js";
 import { marked, table } from "../report.js";

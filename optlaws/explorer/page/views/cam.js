@@ -113,7 +113,7 @@ export function createView(root, study, { cam, programme }) {
   /** The cam, and what is read of it, are where the cursor of the curves is. */
   function turn(at) {
     if (at === null) return;
-    mechanism.turn(at);
+    mechanism.at(at);
     elements.reading.textContent = [`at ${written({ value: Math.round(at), unit: "deg", digits: 6 })}`, ...motion.readings].join(" · ");
   }
 

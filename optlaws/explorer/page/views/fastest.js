@@ -1,9 +1,10 @@
 // The view of least times: moves or a cycle with their limits on the left; the time that is given, from the proven least
 // on, and the front of what is least in it, in the middle; on the right the motion, drawn by the limit that is nearest.
 
-import { createChart, spanOf } from "../chart.js";
+import { createChart } from "../chart.js";
 import { choice, createForm, flat } from "../form.js";
 import { Latest } from "../latest.js";
+import { spanOf } from "../layers.js";
 import { column, group, growing, head, laidOut, panel, part, picture, status } from "../layout.js";
 import { createPanels, createStrip } from "../panels.js";
 import { showTrust, table } from "../report.js";

@@ -1,11 +1,12 @@
 // The mechanism of the machine and its torque: the mechanism that moves with torque over speed, over the ratio and over the
 // input, and torque, power and speed over the cycle for each law.
 
-import { createChart, spanOf } from "../chart.js";
+import { createChart } from "../chart.js";
 import { Latest } from "../latest.js";
+import { spanOf } from "../layers.js";
 import { column, growing, head, laidOut, panel, part, picture, status, swatch, tabs } from "../layout.js";
 import { beside, changeAll } from "../machine_forms.js";
-import { createLinkage } from "../mechanism.js";
+import { createMechanism } from "../mechanism.js";
 import { createPanels, createRun, createStrip } from "../panels.js";
 import { showTrust, table } from "../report.js";
 import { button, html, renew } from "../svg.js";
@@ -43,7 +44,7 @@ export function createView(root, study) {
     column("machine-right", "Torque, power and speed over the cycle", panel("machine-curves"),
       panel("machine-table", { class: "panel scrolled", tabindex: "0", role: "group", "aria-label": "What the laws ask of the drive" })),
   );
-  const linkage = createLinkage(at.drawing);
+  const linkage = createMechanism(at.drawing);
   const chart = createChart(at.chart, moved);
   const input = createPanels(at.input);
   const curves = createPanels(at.curves, { strip: createStrip({ chosen: () => {} }) });
