@@ -20,8 +20,9 @@ class Import:
         return f"{self.source}:{self.line} imports {self.target}"
 
 
-#: methods that hand a value to what draws, exports or shows it: the only places where such an import stands
+#: methods that hand a value to what draws, exports, shows or proves it: the only places where such an import stands
 HANDED_UP = {
+    "_leaf_bound": ("optlaws.verification.exact.bound",),
     "plot": ("optlaws.plots.",),
     "_plot": ("optlaws.plots.",),
     "export": ("optlaws.exports.", "optlaws.synthesis.proven.fewest_laws"),

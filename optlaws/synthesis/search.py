@@ -24,8 +24,8 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import LawEvaluation, evaluate, shortfalls
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.certificate import Certificate
-from optlaws.synthesis.proof.make import certify, lower_bound
-from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.proof.make import certify
+from optlaws.synthesis.solution import Solution, partly_known
 from optlaws.synthesis.status import Status, status_of
 from optlaws.tolerances import AGREEMENT, NO_OBJECTIVE, OPTIMALITY_GAP
 
@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 _NEAR_LIMIT = 0.25  # of the limit of a drive: of a law that is so near it no other starts are tried
 _FIRST_MOVE = 4e-3  # how far the place of a peak is moved at first
 _UNDIVIDED_ROUNDING = 1e-13  # an excess that passes unlooked at; a contact at the middle may hide a larger one
+_CLEARLY_MET = 1e-11  # of an objective: what doubles leave of it where they show that it is proven
 _BEYOND_PROOF = 1e-12  # an objective that is better than what is proven by more belongs to a law that breaks a bound
 
 #: of the gap, what the search over the places of a peak leaves
@@ -233,26 +234,30 @@ class LawSearch:
         problem, limit = self.problem, known_limit(self.problem)
         proof = certify(self.model, bounding, best.objective, limit)
         drive = None if problem.convex else limit_beside(problem)
-        searched = [tight.bound for tight in (self.power, self.peaks) if tight is not None]
-        searched += [] if drive is None else [drive.value]
-        bound = max([lower_bound(proof, limit), *searched])
+        proven = [proof, *(tight for tight in (self.power, self.peaks) if tight is not None)]
+        known = [limit for limit in (limit, None if drive is None else drive.value) if limit is not None]
         several = not problem.convex and best in self.candidates[:1]
-        return Solution(
-            problem=problem,
-            law=best.law,
-            z_series=tuple(self.model.space.z_series(self.model.coordinates(best.optimum.x)).tolist()),
-            objective=best.objective,
-            certificate=proof,
-            lower_bound=bound,
-            best_possible=limit,
-            status=status_of(best.objective, bound, problem.objective.scale, proven=problem.convex and not raised),
-            iterations=sum(outcome.iterations for outcome in self.outcomes),
-            seconds=perf_counter() - self.began,
-            starts=tuple(candidate.objective for candidate in self.candidates) if several else (),
-            power_certificate=self.power,
-            peak_certificate=self.peaks,
-            drive_limit=drive,
-            active_set=bounding,
+        scale, tight = problem.objective.scale, problem.convex and not raised
+        return partly_known(
+            {
+                "problem": problem,
+                "law": best.law,
+                "z_series": tuple(self.model.space.z_series(self.model.coordinates(best.optimum.x)).tolist()),
+                "objective": best.objective,
+                "certificate": proof,
+                "best_possible": limit,
+                "iterations": sum(outcome.iterations for outcome in self.outcomes),
+                "seconds": perf_counter() - self.began,
+                "starts": tuple(candidate.objective for candidate in self.candidates) if several else (),
+                "power_certificate": self.power,
+                "peak_certificate": self.peaks,
+                "drive_limit": drive,
+                "active_set": bounding,
+            },
+            {
+                "lower_bound": lambda _: max([*(each.bound for each in proven), *known]) + 0.0,
+                "status": lambda solution: status_of(best.objective, solution.lower_bound, scale, proven=tight),
+            },
         )
 
 
@@ -267,8 +272,7 @@ def best_available(search: LawSearch) -> Solution | None:
     """The best law of a problem, with its proof; None where none exists or the objective is unbounded."""
     solution, problem = _of_any_way(search), search.problem
     # a law of which nothing is proven may be one of many that are less and less
-    unproven = solution is not None and problem.convex and solution.lower_bound == -inf
-    if not unproven:
+    if solution is None or not problem.convex or _is_met(solution) or solution.lower_bound > -inf:
         return solution
     from optlaws.synthesis.proof.infeasible import falls_for_ever
 
@@ -285,6 +289,8 @@ def _of_any_way(search: LawSearch) -> Solution | None:
         around = unfolded or (solved_without_interior(search) if problem.convex else None)
         known = [answer for answer in (solution, around) if answer is not None]
         return min(known, key=lambda answer: abs(answer.gap), default=None)
+    if _is_met(solution):
+        return solution
     if problem.convex and _beyond_proof(solution):
         return solved_without_interior(search) or solution
     if problem.mirrored and solution.status is Status.INACCURATE:
@@ -394,6 +400,12 @@ def feasible(model: Model, optimum: ActiveSet) -> Candidate | None:
     """The law of an optimum; None where it breaks a constraint or a lower bound."""
     law = _Laws(model).candidate(optimum)
     return None if law is None or shortfalls(model.problem, law.law) else law
+
+
+def _is_met(solution: Solution) -> bool:
+    """Whether doubles show already that the bound meets the objective."""
+    left = solution.objective - solution.certificate.estimate
+    return -_BEYOND_PROOF * abs(solution.objective) <= left <= _CLEARLY_MET * abs(solution.objective)
 
 
 def _beyond_proof(solution: Solution) -> bool:

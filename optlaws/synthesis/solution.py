@@ -49,7 +49,7 @@ class Solution(LawExport, JsonText):
     objective
         The objective, recomputed from `law`.
     certificate
-        Contacts and multipliers; `certificate.bound` is a lower bound, by numpy alone.
+        Contacts and multipliers; `certificate.bound` is a lower bound, with every rounding enclosed.
     power_certificate
         Where D is in the problem and a tight bound was requested: the proof that closes the gap.
     peak_certificate

@@ -3,7 +3,6 @@
 from optlaws.synthesis import search, solve_many
 from optlaws.synthesis.arrays.continuation import ParametricContinuation, StructureSegment, _event
 from optlaws.synthesis.arrays.continued_laws import laws_along, laws_on
-from optlaws.synthesis.arrays.dual_bounds import sums_of_rows
 from optlaws.synthesis.arrays.newton_steps import States, converged, locally_optimal
 from optlaws.synthesis.arrays.powers import least_power, on_global_branch
 from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
@@ -67,8 +66,8 @@ from optlaws.synthesis.program import writer
 from optlaws.synthesis.program.evaluation import evaluate, shortfalls
 from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model_of, relaxed
 from optlaws.synthesis.proof import make
-from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _model, farkas_margin, weighted_rows
-from optlaws.synthesis.proof.duality import _weighted, by_bends, lines_of, row_of, sum_of_rows
+from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, model_of_leaf, weighted_rows
+from optlaws.synthesis.proof.duality import lines_of, row_of, sum_of_rows, summed
 from optlaws.synthesis.proof.infeasible import failure
 from optlaws.synthesis.proof.nodes import PlaceRange
 from optlaws.synthesis.proof.peak_rows import PeakRows
@@ -77,7 +76,7 @@ from optlaws.synthesis.proof.power.formula_underestimators import FormulaRows, a
 from optlaws.synthesis.proof.power.rows import Anchors, PowerRows, rows_of, velocity_brackets
 from optlaws.synthesis.proof.power.search import Region, _points, searched
 from optlaws.synthesis.proof.power.shared_energy import secant_over_inverse, secant_over_root
-from optlaws.synthesis.proof.sublevel_bounds import Sublevel, means_by, spread
+from optlaws.synthesis.proof.sublevel_bounds import Sublevel, spread
 from optlaws.synthesis.search import LawSearch, attempt, from_symmetric
 from optlaws.synthesis.solve import _neighbours
 from optlaws.synthesis.solve_many import _together, solved

@@ -276,7 +276,8 @@ HELD_UP = {
 def test_constants_are_held_up_where_hardly_a_law_has_them(name: str) -> None:
     solution = synthesize(HELD_UP[name])
     assert solution.status.value in {"optimal", "local"}
-    assert solution.lower_bound <= solution.objective
+    # what rounding may leave: the bound is exact, the objective a rounded one
+    assert solution.lower_bound <= solution.objective * (1.0 + 1e-13)
     assert broken(solution.problem, solution.law) == []
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.synthesis.arrays.cells import Cells, Residuals, excess_at
-from optlaws.synthesis.arrays.dual_bounds import lower_bounds, sharp_bounds
+from optlaws.synthesis.arrays.dual_bounds import lower_bounds
 from optlaws.synthesis.arrays.newton_steps import States, Structure, batch_families, locally_optimal, product, with_one
 from optlaws.synthesis.arrays.programs import Numbers, Path
 from optlaws.synthesis.families.family import BatchFamily, LinearFamily, NonlinearFamily
@@ -23,7 +23,6 @@ _CURVED_GAP = 9e-11  # of an objective: what the bound of a proven law of curved
 _GREAT_MULTIPLIERS = 1e-9  # of an objective: what rounding may leave of it where multipliers are great
 _CERTIFIED_PULL = 1e-12  # of the greatest multiplier: by so much one may be below 0, for which the bound counts it as 0
 _SMALL_OBJECTIVE = 1e-6  # of an objective's scale: one that is less is measured by that
-_WIDE_GAP = 1e-7  # of an objective: gaps below it are worth a sharper bound
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,17 +63,6 @@ class Certification:
         unit = np.where(np.abs(self.objective) > _SMALL_OBJECTIVE * self.scale, np.abs(self.objective), self.scale)
         return np.asarray(np.abs(self.objective - self.bound) / unit)
 
-    @property
-    def blurred(self) -> NDArray[np.intp]:
-        """Laws that nothing but rounding may keep from being proven optimal."""
-        wide = (
-            (self.gap > _SHARP_GAP)
-            & (self.gap < _WIDE_GAP)
-            & (self.excess <= _CERTIFIED_EXCESS)
-            & (self.pull <= _CERTIFIED_PULL)
-        )
-        return np.flatnonzero(wide & self.affine)
-
 
 def certification_of(path: Path, structure: Structure, numbers: Numbers, states: States) -> Certification:
     """Certification of states of one structure; NaN and infinities are no laws."""
@@ -96,7 +84,7 @@ def certification_of(path: Path, structure: Structure, numbers: Numbers, states:
     touching = [states.u[:, contacts] for contacts in structure.of_families]
     greatest = np.abs(states.weights).max(axis=1, initial=0.0)
     pull = -(states.weights / np.where(greatest == 0.0, 1.0, greatest)[:, None]).min(axis=1, initial=np.inf)
-    certification = Certification(
+    return Certification(
         best=np.ones(len(states), dtype=np.bool_) if checks.proving else locally_optimal(structure, states),
         objective=path.model.unit * (states.x * numbers.cost).sum(axis=1),
         bound=lower_bounds(path, structure, numbers, states, value),
@@ -106,10 +94,6 @@ def certification_of(path: Path, structure: Structure, numbers: Numbers, states:
         affine=not program.curved,
         scale=path.model.unit,
     )
-    blurred = certification.blurred
-    if len(blurred):
-        certification.bound[blurred] = sharp_bounds(path, structure, numbers.taken(blurred), states.taken(blurred))
-    return certification
 
 
 @dataclass(frozen=True, eq=False)

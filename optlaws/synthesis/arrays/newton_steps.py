@@ -18,6 +18,7 @@ from optlaws.synthesis.arrays.programs import Numbers
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import BatchFamily, NonlinearFamily
 from optlaws.synthesis.program.writer import Model
+from optlaws.synthesis.proof.duality import weighted
 from optlaws.tolerances import AGREEMENT
 
 #: what is given up: a step that is greater than the next ones could mend
@@ -140,11 +141,6 @@ def with_one(x: Array) -> Array:
 def product(planes: Array, point: Array) -> Array:
     """Values of planes of each law at its variables and 1, shape (laws, planes)."""
     return np.asarray(np.matmul(planes, point[:, :, None])[:, :, 0])
-
-
-def weighted(weights: Array, rows: Array) -> Array:
-    """The sum of the rows of each law, weighted."""
-    return np.asarray(np.matmul(weights[:, None, :], rows)[:, 0])
 
 
 def batch_families(model: Model) -> list[BatchFamily]:

@@ -57,7 +57,7 @@ class TimeProof(Declared, title="a proof of a least time"):
             raise InputError(f"the shortest time, {self.shortest!r}, is above the longest, {self.longest!r}")
 
     def stands(self, move: Timed) -> bool:
-        """Whether the multipliers prove the stated time of the move, with numpy alone."""
+        """Whether the multipliers prove the stated time of the move."""
         certificates = self.certificates(move)
         return bool(certificates) and all(proof.proves_infeasible for proof in certificates)
 

@@ -42,8 +42,6 @@ class Model:
     equation_names: tuple[str, ...]
     #: what these variables have been divided by, powers of 2 by name, so that they are near 1
     scales: Mapping[str, float] = field(default_factory=dict)
-    #: k and a(k) of each equation that states a position, None of the others
-    positions: tuple[tuple[float, float] | None, ...] = ()
 
     @property
     def unit(self) -> float:
@@ -169,7 +167,6 @@ class _Equation(NamedTuple):
     row: Array
     right: float
     unit: float
-    position: tuple[float, float] | None
 
 
 class _Writer:
@@ -233,7 +230,7 @@ class _Writer:
         for constant, limits in problem.bounded:
             self._bounded(constant, limits)
         for condition in self.space.equations():
-            self.equation(condition.name, self._widened(condition.row), condition.right, position=condition.position)
+            self.equation(condition.name, self._widened(condition.row), condition.right)
         for i, window in enumerate(problem.windows, 1):
             halves = (names.window(i), names.mirrored(names.window(i)))
             if window.motion is not None:
@@ -292,7 +289,7 @@ class _Writer:
         if isinstance(value, str):
             self.equation(name, row - self.unit(value), -base)
         else:
-            self.equation(name, row, value - base, position=(k, value) if nu == 0 else None)
+            self.equation(name, row, value - base)
 
     def _bounded(self, constant: Functional, limits: Range) -> None:
         name = constant.name
@@ -365,10 +362,8 @@ class _Writer:
             self.families.append(self.space.from_rest(RowName.FROM_END, root, backward=True, weights=weights))
         self.row(RowName.TANGENT, 2.0 * self.tangent * root - slack, bound + self.tangent**2)
 
-    def equation(
-        self, name: str, row: Array, right: float, unit: float = 1.0, position: tuple[float, float] | None = None
-    ) -> None:
-        self.equations.append(_Equation(name, row / unit, right / unit, unit, position))
+    def equation(self, name: str, row: Array, right: float, unit: float = 1.0) -> None:
+        self.equations.append(_Equation(name, row / unit, right / unit, unit))
 
     def model(self) -> Model:
         """The program with the problem's constraints."""
@@ -379,5 +374,4 @@ class _Writer:
         scaled = units if (units != 1.0).any() else None
         program = Program(tuple(self.families), equalities, right, self.cost, self.cost_unit, scaled)
         equation_names = tuple(equation.name for equation in self.equations)
-        positions = tuple(equation.position for equation in self.equations)
-        return Model(self.problem, self.space, program, self.places, equation_names, self.scales, positions)
+        return Model(self.problem, self.space, program, self.places, equation_names, self.scales)

@@ -1,4 +1,4 @@
-"""Lower bounds that stand by themselves: trees of contacts and multipliers, checked with numpy alone.
+"""Lower bounds that stand by themselves: trees of contacts and multipliers.
 
 Every law of the problem, with its own constants as variables, obeys the rows of the program. Added up with multipliers
 m >= 0 (any sign for equations) to the objective they give an affine function of the coordinates of the law, and its
@@ -19,65 +19,16 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
-from optlaws.numbers import Array, bounded
+from optlaws.numbers import bounded
 from optlaws.synthesis.problem.constants import present_name
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, least_violation, model_of, relaxed
-from optlaws.synthesis.proof.duality import Line, by_bends, lines_of, row_of, sum_of_rows
+from optlaws.synthesis.proof.duality import Line, lines_of, sum_of_rows
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, closes
 
 if TYPE_CHECKING:
     from optlaws.synthesis.proof.peak_rows import PeakRows
     from optlaws.synthesis.proof.power.box import BoxRows
-
-
-_FARKAS_ROUNDING = 1e-14  # of weighted lengths of rows: more than the rounding of their sum
-_FARKAS_FIRM = 1e-10  # of the greatest singular value: rows with less leave directions open
-
-#: in units of free functions with peak acceleration 1; of a greater law no double tells whether it keeps the rows
-_GREATEST = 1e12
-_ROUNDS = 3
-
-
-def farkas_margin(rows: Array, right: Array, multipliers: Array, count: int) -> float:
-    """The margin by which rows . x <= right contradict each other, with multipliers; not above 0 if not shown.
-
-    Parameters
-    ----------
-    rows, right
-        Shapes (rows, variables) and (rows,).
-    multipliers
-        One for each row.
-    count
-        So many rows come first as inequalities, with multipliers of at least 0; the rest are equations.
-
-    Examples
-    --------
-    >>> farkas_margin(np.array([[1.0], [-1.0]]), np.array([0.0, -0.25]), np.array([1.0, 1.0]), 2)
-    0.25
-    """
-    if not len(rows):
-        return 0.0
-    length = np.maximum(np.linalg.norm(rows, axis=1), np.finfo(np.float64).tiny)
-    # the weightier a multiplier, the more it may give
-    ease = np.abs(multipliers) * length
-    ease[count:] = max(float(ease.max()), np.finfo(np.float64).tiny)
-    columns = (rows / length[:, None] * ease[:, None]).T
-    values = np.linalg.svd(columns, compute_uv=False)
-    corrected = multipliers.copy()
-    for _ in range(_ROUNDS):
-        corrected = corrected - np.linalg.lstsq(columns, rows.T @ corrected, rcond=_FARKAS_FIRM)[0] * ease / length
-    if (corrected[:count] < 0.0).any():
-        corrected = multipliers
-    rest = rows.T @ corrected
-    value = -float(corrected @ right)
-    uncertain = float(np.linalg.norm(rest)) + _FARKAS_ROUNDING * float(np.abs(corrected) @ length)
-    firm = len(rows) >= rows.shape[1] and float(values[-1]) > _FARKAS_FIRM * float(values[0])
-    if firm:
-        moved = uncertain / float(values[-1]) * ease / length
-        if (corrected[:count] >= moved[:count]).all():
-            return value - float(moved @ np.abs(right))
-    return value - _GREATEST * float(np.abs(rest).sum())
 
 
 OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
@@ -206,11 +157,28 @@ class Certificate(JsonText):
         return replace(self, tree=(*self.tree[:-1], changed))
 
     @kept_property
+    def estimate(self) -> float:
+        """A bound of one leaf in doubles, less what their rounding may hide: quick, and mostly as good as `bound`."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            model, lines = weighted_rows(self)
+            value = float(model.unit * sum_of_rows(model, lines))
+        return value if isfinite(value) else -inf
+
+    @kept_property
     def bound(self) -> float:
-        """The proven lower bound of the objective, recomputed by numpy; minus infinity where none is proven."""
+        """The proven lower bound of the objective, with every rounding enclosed; minus infinity where none is proven.
+
+        In doubles, as `estimate`, where a constant is a user's own that exact arithmetic does not know.
+        """
         if self.claim is None:
-            return excess(self)
+            return self._leaf_bound()
         return self.claim if self.proven and self.claim < inf else -inf
+
+    def _leaf_bound(self) -> float:
+        from optlaws.verification.exact.bound import bound_of_leaf
+
+        exact = bound_of_leaf(self)
+        return self.estimate if exact is None else exact
 
     @kept_property
     def proven(self) -> bool:
@@ -218,7 +186,7 @@ class Certificate(JsonText):
         if self.claim is None:
             return self.bound > -inf
         if self.claim == inf:
-            return excess(self) > 0.0
+            return self._leaf_bound() > 0.0
         rows: Any = self._regions()
         return rows is not None and closes(self.tree, rows.roots(), rows.after)
 
@@ -280,50 +248,14 @@ class Certificate(JsonText):
         return cls(problem, entries.claim, stored.tree_of_cells(entries.cells, roots_of(problem, peak)), peak=peak)
 
 
-def excess(certificate: Certificate) -> float:
-    """Least value over all laws of the problem of the objective plus the leaf's residuals; a lower bound.
-
-    Negative multipliers count as zero, and so do contacts that the problem does not have. Multipliers so large that
-    their sum is beyond double precision prove nothing: the bound is then minus infinity.
-    """
-    with np.errstate(over="ignore", invalid="ignore"):
-        model, lines = weighted_rows(certificate)
-        value = float(model.unit * sum_of_rows(model, lines))
-        if certificate.program == VIOLATION and not value > 0.0:
-            value = max(value, _contradiction(certificate, model))
-    return value if isfinite(value) else -inf
-
-
 def weighted_rows(certificate: Certificate) -> tuple[Model, list[Line]]:
     """The program of a certificate of one leaf, and its rows as `lines_of` gives them."""
-    model = _model(certificate)
-    return model, by_bends(model, lines_of(model.program, certificate.leaf))
+    model = model_of_leaf(certificate)
+    return model, lines_of(model.program, certificate.leaf)
 
 
-def _model(certificate: Certificate) -> Model:
+def model_of_leaf(certificate: Certificate) -> Model:
+    """The program whose rows a certificate of one leaf adds up."""
     if certificate.tangent is not None:
         return relaxed(certificate.problem, certificate.tangent)
     return least_violation(certificate.problem) if certificate.program == VIOLATION else model_of(certificate.problem)
-
-
-def _contradiction(certificate: Certificate, model: Model) -> float:
-    """The bound of a contradiction, with the multipliers corrected where nothing bounds the law."""
-    program = model.program
-    rows, right, multipliers = [], [], []
-    for contact in certificate.contacts:
-        row, most = row_of(program, contact)
-        if contact.multiplier > 0.0 and row.any():
-            rows.append(row)
-            right.append(most)
-            multipliers.append(contact.multiplier)
-    count = len(rows)
-    equations = list(certificate.equations)[: len(program.right)]
-    together = np.vstack([np.empty((0, program.size)), *rows, program.equalities[: len(equations)]])
-    # every row has t to spare, and a law keeps to it with t = 0
-    free = program.objective == 0.0
-    return farkas_margin(
-        together[:, free],
-        np.array([*right, *program.right[: len(equations)]]),
-        np.array([*multipliers, *program.multipliers_of_equations(equations)]),
-        count,
-    )

@@ -1,15 +1,14 @@
-"""Rows of contacts, and their weighted sum: the bound by weak duality, with every rounding against it.
+"""Rows of contacts, and their weighted sum in doubles: the bound by weak duality, less what their rounding may hide.
 
 What rounding leaves of the sum's dependence on the law is charged, for which laws that contradict the claim must be
-bounded.
+bounded: the quick bound by which searches decide and arrays are proven. That of a single certificate is exact.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from fractions import Fraction
-from math import fsum, inf
+from collections.abc import Sequence
+from math import inf, isfinite
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,19 +19,18 @@ from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Program
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.nodes import Contact, Leaf
-from optlaws.synthesis.proof.sublevel_bounds import Sublevel, means_by, moments
+from optlaws.synthesis.proof.sublevel_bounds import Sublevel, moments
 from optlaws.tolerances import ROUNDOFF
 
-_WEIGHTED_ROUNDING = 9 * ROUNDOFF  # roundings in a row before it is weighted, and of the sum
+_IN_A_ROW = 9  # roundings in a row before it is weighted
+_SQUARED = 2.0**-20  # of a rounding: more than products of roundings are
 
 #: a multiplier, a row and its right side
 Line = tuple[float, Array, float]
 
 _FACING = {"C_plus": "C_minus", "C_minus": "C_plus"}
-_SPLIT = 2.0**27 + 1.0
-#: from so many positions on that a law passes, they are summed up as bends
-_MANY_POSITIONS = 8
-_WIDER = 1.001  # than what rounding in sums of reaches could hide
+#: bounds of the variables above and below, and those of moments with their matrices
+AprioriBounds = tuple[dict[str, float], dict[str, float], list[tuple[Array, Array]]]
 
 
 def lines_of(program: Program, leaf: Leaf) -> list[Line]:
@@ -40,44 +38,6 @@ def lines_of(program: Program, leaf: Leaf) -> list[Line]:
     lines = [(max(contact.multiplier, 0.0), *row_of(program, contact)) for contact in leaf.contacts]
     weights = program.multipliers_of_equations(leaf.equations).tolist()
     return [*lines, *zip(weights, program.equalities, program.right.tolist(), strict=False)]
-
-
-def by_bends(model: Model, lines: list[Line]) -> list[Line]:
-    """The lines with equations of many positions as equations of bends between them: exactly the same sum.
-
-    Rows of positions reach back to the start, and their great multipliers cancel; what rounding hides in each does not.
-    Bends are local. With the multipliers y of positions at k, that of the first is the sum of y k / k_1, and that of
-    the bend at k_(j-1) the sum of y_i (k_i - k_(j-1)) over all i from j on.
-
-    Parameters
-    ----------
-    model
-        The program of the lines.
-    lines
-        As of `lines_of`, the program's equations last.
-    """
-    first = len(lines) - len(model.positions)
-    known = sorted((*position, i) for i, position in enumerate(model.positions, first) if position is not None)
-    places = tuple(k for k, _, _ in known)
-    regular = len(set(places)) == len(places) >= _MANY_POSITIONS and first >= 0 and places[0] > 0.0
-    rows = model.space.bends(places) if regular else None
-    if rows is None:
-        return lines
-    ends = [Fraction(0), *map(Fraction, places)]
-    ways = [Fraction(model.space.boundary.start[0]), *(Fraction(value) for _, value, _ in known)]
-    slopes = [(ways[i + 1] - ways[i]) / (ends[i + 1] - ends[i]) for i in range(len(known))]
-    wide = model.space.widened(rows, model.program.size)
-    turned, weight, moment = list(lines), Fraction(0), Fraction(0)
-    for j in range(len(known) - 1, 0, -1):
-        place = known[j][2]
-        multiplier = Fraction(float(lines[place][0]))
-        weight, moment = weight + multiplier, moment + multiplier * ends[j + 1]
-        right = float(slopes[j] - slopes[j - 1]) - float(wide[j - 1, -1])
-        turned[place] = (float(moment - ends[j] * weight), wide[j - 1, :-1], right)
-    place = known[0][2]
-    whole = moment + Fraction(float(lines[place][0])) * ends[1]
-    turned[place] = (float(whole / ends[1]), *lines[place][1:])
-    return turned
 
 
 def row_of(program: Program, contact: Contact) -> tuple[Array, float]:
@@ -141,93 +101,83 @@ def sum_of_rows(model: Model, lines: list[Line], claim: float | None = None) -> 
     claim
         Without it what the sum itself says.
     """
-    total = summed(model, lines)
-    return total.value - rounding_error_bound(model, total, model.unit * total.value if claim is None else claim)
+    total = sum_of_lines(model, lines)
+    most = model.unit * float(total.value[0]) if claim is None else claim
+    below = bounds_below(model, most)
+    return float((total.value - total.hidden - charge(model, below, total.slope, total.blur))[0])
 
 
-@dataclass(frozen=True, eq=False)
-class RowSum:
-    """The sum of weighted rows: its slope, exact in the variables beyond the coordinates, and what rounding hides.
+def sum_of_lines(model: Model, lines: list[Line]) -> RowSums:
+    """The objective and the weighted rows of one law, added up."""
+    weights = np.array([weight for weight, _, _ in lines])[None]
+    rows = np.array([[*row, -right] for _, row, right in lines]).reshape(1, -1, model.program.size + 1)
+    return summed(model.program.objective[None], weights, rows, np.abs(rows))
 
-    `value` is rounded down, the slope by each coordinate is off by its `blur` at most.
-    """
+
+class RowSums(NamedTuple):
+    """Sums of weighted rows, one for each law: slopes by the variables and values, each with what rounding hides."""
 
     slope: Array
-    value: float
     blur: Array
+    value: Array
+    hidden: Array
 
 
-def summed(model: Model, lines: list[Line]) -> RowSum:
-    """The objective and the weighted rows, added up."""
-    lines = [line for line in lines if line[0] != 0.0]
-    weights = np.array([weight for weight, _, _ in lines])
-    rows = np.array([[*row, -right] for _, row, right in lines]).reshape(-1, model.program.size + 1)
-    total = _weighted(weights, rows, np.append(model.program.objective, 0.0))
-    hidden = _WEIGHTED_ROUNDING * (np.abs(weights) @ np.abs(rows))
-    slope = total[:-1]
-    variables = list(model.places.values())
-    # the entries of the variables are exact, and so is a sum that is zero
-    slope[variables] = np.where(slope[variables] == 0.0, 0.0, np.nextafter(slope[variables], -inf))
-    return RowSum(slope, float(total[-1] - hidden[-1]), hidden[: model.space.terms])
+def summed(cost: Array, weights: Array, rows: Array, sizes: Array) -> RowSums:
+    """The cost and the weighted rows of each law, added up.
 
-
-def _weighted(weights: Array, rows: Array, start: Array) -> Array:
-    """Start + weights . rows, rounded once: the great multipliers of laws at the edge of what exists cancel."""
-    columns = np.vstack([start[None, :], *product_with_rest(weights[:, None], rows)])
-    # fsum refuses what overflows
-    return np.array([fsum(column) for column in columns.T.tolist()]) if np.isfinite(columns).all() else start * np.nan
-
-
-def product_with_rest(first: Array, second: Array) -> tuple[Array, Array]:
-    """A product, and what rounding took from it (Dekker 1971)."""
-    product = first * second
-    (a, b), (c, d) = _halves(first), _halves(second)
-    return product, b * d - (((product - a * c) - b * c) - a * d)
-
-
-def _halves(values: Array) -> tuple[Array, Array]:
-    """Each value as a sum of two whose products are exact."""
-    scaled = _SPLIT * values
-    high = scaled - (scaled - values)
-    return high, values - high
-
-
-def rounding_error_bound(model: Model, total: RowSum, claim: float) -> float:
-    """The greatest effect of rounding in the slope, over all laws that contradict the claim."""
-    terms, slope = model.space.terms, total.slope
-    sublevel = Sublevel.of(model)
-    known = sublevel.greatest_values(max(claim, 0.0))
-    greatest, least = model.in_scales(known), model.in_scales(sublevel.least_values())
-    beyond = 0.0
-    for name, place in model.places.items():
-        # a positive slope can only help where the constant is at least 0
-        if slope[place] < 0.0:
-            beyond += -slope[place] * greatest.get(name, inf)
-        elif slope[place] > 0.0:
-            # of the two one-sided peaks one is at least the other's opposite
-            facing = greatest.get(_FACING.get(name, ""), inf)
-            beyond += slope[place] * max(min(-least.get(name, 0.0), facing), 0.0)
-    if not slope[:terms].any() and not total.blur.any():
-        return beyond
-    reaches = (float(_reach(extension, slope[:terms], total.blur) @ most) for most, extension in moments(model, known))
-    return beyond + min(reaches, default=_paid_by_variables(model, total, least))
-
-
-def _paid_by_variables(model: Model, total: RowSum, least: Mapping[str, float]) -> float:
-    """The cost of the slope with respect to the coordinates, where a variable with positive slope bounds the law.
-
-    Where laws may be as great as they like, so is the constant, and what the sum leaves of it outweighs the rounding.
+    Parameters
+    ----------
+    cost
+        What is minimised, shape (laws, variables), or one for all.
+    weights, rows
+        Shapes (laws, rows) and (laws, rows, variables + 1), with the opposites of the right sides last.
+    sizes
+        How great the rows' entries may be.
     """
-    terms, beyond = model.space.terms, inf
+    start = np.concatenate([cost, np.zeros((len(cost), 1))], axis=1)
+    total = start + weighted(weights, rows)
+    hidden = roundings(rows.shape[1]) * (weighted(np.abs(weights), sizes) + np.abs(start))
+    return RowSums(total[:, :-1], hidden[:, :-1], total[:, -1], hidden[:, -1])
+
+
+def weighted(weights: Array, rows: Array) -> Array:
+    """The sum of the rows of each law, weighted."""
+    return np.asarray(np.matmul(weights[:, None, :], rows)[:, 0])
+
+
+def roundings(count: int) -> float:
+    """What rounding hides of a start and so many weighted rows, as a share of the sum of magnitudes.
+
+    Each is rounded as a product once, and in as many additions as there are rows.
+    """
+    return ROUNDOFF * (_IN_A_ROW + 1 + count + _SQUARED)
+
+
+def bounds_below(model: Model, claim: float) -> AprioriBounds:
+    """A priori bounds of the variables, above and below, and of the coordinates, in laws below a claim."""
+    return bounds_within(model, Sublevel.of(model).greatest_values(max(claim, 0.0)))
+
+
+def bounds_within(model: Model, greatest: dict[str, float]) -> AprioriBounds:
+    """The same of laws whose constants are bounded from above."""
+    scales = model.in_scales
+    return scales(greatest), scales(Sublevel.of(model).least_values()), moments(model, greatest)
+
+
+def charge(model: Model, below: AprioriBounds, slope: Array, blur: Array) -> Array:
+    """The most by which slopes, and what rounding hides of them, lower sums in laws with known a priori bounds."""
+    greatest, least, sizes = below
+    terms, beyond = model.space.terms, np.zeros(len(slope))
     for name, place in model.places.items():
-        if total.slope[place] > 0.0 and least.get(name, -inf) >= 0.0:
-            for most, extension, growth in means_by(model, name):
-                reach = _reach(extension, total.slope[:terms], total.blur)
-                if _WIDER * growth * float(reach.sum()) <= total.slope[place]:
-                    beyond = min(beyond, max(float(reach @ most), 0.0))
-    return beyond
-
-
-def _reach(extension: Array, slope: Array, blur: Array) -> Array:
-    """The greatest magnitudes of the slope's weights of moments, wherever it is within its blur."""
-    return np.asarray(np.abs(extension @ slope) + np.abs(extension) @ blur)
+        share, unknown = slope[:, place], blur[:, place]
+        # of the two one-sided peaks one is at least the other's opposite
+        low = max(min(-least.get(name, 0.0), greatest.get(_FACING.get(name, ""), inf)), 0.0)
+        for pull, most in ((unknown - share, greatest.get(name, inf)), (unknown + share, low)):
+            beyond += np.where(pull > 0.0, pull, 0.0) * most if isfinite(most) else np.where(pull > 0.0, inf, 0.0)
+    reaches = [
+        (np.abs(slope[:, :terms] @ extension.T) + blur[:, :terms] @ np.abs(extension).T) @ most
+        for most, extension in sizes
+    ]
+    free = np.where((slope[:, :terms] != 0.0).any(axis=1) | (blur[:, :terms] != 0.0).any(axis=1), inf, 0.0)
+    return np.asarray(beyond + (np.min(reaches, axis=0) if reaches else free))

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from math import nextafter
 
 import numpy as np
 
@@ -28,15 +27,14 @@ from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, relaxed, relaxed_power
 from optlaws.synthesis.proof.certificate import OBJECTIVE, RELAXED, VIOLATION, Certificate, weighted_rows
-from optlaws.synthesis.proof.duality import row_of, summed
+from optlaws.synthesis.proof.duality import row_of, sum_of_lines
 from optlaws.synthesis.proof.nodes import Contact
-from optlaws.synthesis.proof.sublevel_bounds import Sublevel, means_by
+from optlaws.synthesis.proof.sublevel_bounds import Sublevel
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.tolerances import EMPTY_ROW, OPTIMALITY_GAP
 
 _CUTS_ENOUGH = 2e-9  # of an objective: what cuts may leave
 _LEFT_SHARES = (1e-12, 1e-11, 1e-10, 1e-9)  # of a constant's weight: what a proof leaves of it to pay for rounding
-_DIRECTIONS_BALANCED = 1e-13  # a slope that is less is balanced
 _DIRECTIONS_RANK = 1e-10  # of the greatest singular value of pulls: less is rounding
 _APEX = 1e-11  # of the sum of magnitudes: a norm that is less is 0 but for rounding
 _PROOF_WEIGHTLESS = 1e-14  # of the greatest multiplier of a proof: what is less is left out
@@ -45,7 +43,6 @@ _PROOF_ENOUGH = 5e-9  # of an objective: a bound that leaves no more needs no ot
 _TANGENTS = 4
 _PLACES = 256
 _NEAR = 0.9
-_MORE = 2.0  # times as much as rounding lets go
 _SETTLINGS = 3
 
 
@@ -76,9 +73,9 @@ def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | N
         if warm is None:
             break
         proof = certificate(loose, warm, RELAXED, tangent)
-        if best is None or proof.bound > best.bound:
+        if best is None or proof.estimate > best.estimate:
             best = proof
-        if limit is not None and best.bound < _NEAR * limit:
+        if limit is not None and best.estimate < _NEAR * limit:
             break
         moved = float(warm.x[loose.places[VariableName.POWER_ROOT]])
         if abs(moved - tangent) < 1e-6 * tangent:
@@ -91,10 +88,11 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
     if abs(objective) <= OPTIMALITY_GAP * model.problem.objective.scale:
         # constants that are nowhere below 0 say so without a sum, of which rounding would be all that is left
         plain = Certificate.of_leaf(model.problem)
-        if abs(plain.bound) <= OPTIMALITY_GAP * model.problem.objective.scale:
+        if abs(plain.estimate) <= OPTIMALITY_GAP * model.problem.objective.scale:
             return plain
     proof = certificate(model, optimum, OBJECTIVE)
-    if objective - proof.bound <= _PROOF_ENOUGH * max(abs(objective), _PROOF_ENOUGH):
+    enough = objective - _PROOF_ENOUGH * max(abs(objective), _PROOF_ENOUGH)
+    if proof.estimate >= enough or proof.bound >= enough:
         return proof
     bent = any(isinstance(family, FormulaFamily | NormFamily | ConeFamily) for family in model.program.families)
     if bent or objective - proof.bound > OPTIMALITY_GAP * abs(objective):
@@ -104,7 +102,6 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
     if proof.bound == -np.inf:
         proof = max((proof, *_leaving(model, optimum)), key=lambda known: known.bound)
     several = _Tangents(model, optimum).certificate(objective) if _needs_tangents(model) else None
-    several = None if several is None else _with_falling_peaks(model, several)
     return several if several is not None and several.bound > proof.bound else proof
 
 
@@ -124,7 +121,7 @@ def _shifted(model: Model, optimum: ActiveSet, proof: Certificate) -> Certificat
     equations = program.multipliers_of_equations(proof.equations)
     rows = [row_of(program, contact)[0] for contact in contacts]
     pulls = [max(contact.multiplier, 0.0) * row[None] for contact, row in zip(contacts, rows, strict=True)]
-    slope = summed(model, weighted_rows(proof)[1]).slope
+    slope = sum_of_lines(model, weighted_rows(proof)[1]).slope[0]
     shifts = [_shifts(model, optimum, contact) for contact in contacts]
     changes = [contact.multiplier * shift for contact, shift in zip(contacts, shifts, strict=True)]
     length = np.maximum(np.linalg.norm(program.equalities, axis=1), EMPTY_ROW)
@@ -142,7 +139,7 @@ def _shifted(model: Model, optimum: ActiveSet, proof: Certificate) -> Certificat
         for contact, grown, part in zip(contacts, share.tolist(), parts, strict=True)
     ]
     stated = program.stated_multipliers(equations + pull / length).tolist()
-    return _with_falling_peaks(model, proof.with_leaf(contacts=moved, equations=stated))
+    return proof.with_leaf(contacts=moved, equations=stated)
 
 
 def _shifts(model: Model, optimum: ActiveSet, contact: Contact) -> Array:
@@ -183,13 +180,13 @@ def _touching(model: Model, contact: Contact, change: Array) -> Contact:
 
 def _leaving(model: Model, optimum: ActiveSet) -> Iterator[Certificate]:
     """Certificates of optima that leave a little of a constant's weight, with which rounding is paid."""
-    program = model.program
-    least = Sublevel.of(model).least_values()
+    program, sublevel = model.program, Sublevel.of(model)
+    least = sublevel.least_values()
     pulled = np.zeros(program.size)
     for i, multiplier in zip(optimum.family, optimum.multipliers, strict=True):
         pulled += multiplier * program.families[i].slack
     for name, place in model.places.items():
-        if pulled[place] > 0.0 and least.get(name, -np.inf) >= 0.0 and means_by(model, name):
+        if pulled[place] > 0.0 and least.get(name, -np.inf) >= 0.0 and any(sublevel.means_by(name)):
             for share in _LEFT_SHARES:
                 cost = program.objective.copy()
                 cost[place] -= share * pulled[place]
@@ -242,8 +239,7 @@ def certificate(model: Model, optimum: ActiveSet, program: str, tangent: float =
             place = float(min(max(k, 0.0), 1.0))
             contacts.append(Contact(family.name, float(optimum.s[j]), place, multiplier, direction))
     equations = model.program.stated_multipliers(optimum.equality_multipliers).tolist()
-    proof = _with_falling_peaks(model, Certificate.of_leaf(model.problem, contacts, equations, program, tangent))
-    return _with_falling_peaks(model, _balanced(model, proof))
+    return Certificate.of_leaf(model.problem, contacts, equations, program, tangent)
 
 
 def _direction(family: NormFamily, x: Array) -> tuple[float, ...]:
@@ -254,59 +250,6 @@ def _direction(family: NormFamily, x: Array) -> tuple[float, ...]:
     return tuple((image / length if known else np.zeros_like(image)).tolist())
 
 
-def _with_falling_peaks(model: Model, proof: Certificate) -> Certificate:
-    """The certificate with multipliers that hold what may fall for ever: a peak of one side, which rounding lets go.
-
-    Beside such a peak other constants may be as great as they like, and are not pulled by more than they cost.
-    """
-    least = Sublevel.of(model).least_values()
-    falling = [name for name in model.places if least.get(name) == -np.inf]
-    if not falling or proof.program == VIOLATION:
-        return proof
-    slope = summed(model, weighted_rows(proof)[1]).slope
-    contacts = list(proof.contacts)
-    rows = [row_of(model.program, contact)[0] for contact in contacts]
-    for name, place in model.places.items():
-        # its rows may be several, with names of their own
-        rows_of_name = [i for i, contact in enumerate(contacts) if contact.multiplier > 0.0 and rows[i][place] < 0.0]
-        if rows_of_name and (slope[place] > 0.0 if name in falling else slope[place] < 0.0):
-            most = max(rows_of_name, key=lambda i: contacts[i].multiplier)
-            pull = -float(rows[most][place])
-            greater = contacts[most].multiplier + _MORE * float(slope[place]) / pull
-            contacts[most] = replace(contacts[most], multiplier=nextafter(greater, np.copysign(np.inf, slope[place])))
-    bounding = proof.with_leaf(contacts=contacts)
-    if max(bounding.bound, proof.bound) == -np.inf:
-        bounding = _balanced_exactly(model, proof, [model.places[name] for name in falling])
-    return bounding if bounding.bound > proof.bound else proof
-
-
-def _balanced_exactly(model: Model, proof: Certificate, places: list[int]) -> Certificate:
-    """The certificate with multipliers that hold variables to the last bit, as far as there are such."""
-    rows = [row_of(model.program, contact)[0] for contact in proof.contacts]
-    for place in places:
-        paying = [i for i, contact in enumerate(proof.contacts) if contact.multiplier > 0.0 and rows[i][place] < 0.0]
-        if summed(model, weighted_rows(proof)[1]).slope[place] != 0.0:
-            proof = _exactly(model, proof, place, paying) or proof
-    return proof
-
-
-def _exactly(model: Model, proof: Certificate, place: int, paying: list[int]) -> Certificate | None:
-    """The certificate with one contact's multipliers adjusted to balance a variable to the last bit.
-
-    The lightest is tried first, whose last bit is finest; None where none does.
-    """
-    for i in sorted(paying, key=lambda i: proof.contacts[i].multiplier):
-        contacts = list(proof.contacts)
-        # the sum itself, which is stated a bit below what it is
-        slope = nextafter(float(summed(model, weighted_rows(proof)[1]).slope[place]), np.inf)
-        pull = -float(row_of(model.program, contacts[i])[0][place])
-        contacts[i] = replace(contacts[i], multiplier=contacts[i].multiplier + slope / pull)
-        balanced = proof.with_leaf(contacts=contacts)
-        if contacts[i].multiplier > 0.0 and summed(model, weighted_rows(balanced)[1]).slope[place] == 0.0:
-            return balanced
-    return None
-
-
 def violation_certificate(model: Model, optimum: ActiveSet) -> Certificate:
     """The certificate that no law exists, without multipliers that are mere rounding."""
     sizes = (optimum.multipliers, optimum.equality_multipliers)
@@ -314,30 +257,6 @@ def violation_certificate(model: Model, optimum: ActiveSet) -> Certificate:
     equations = np.where(np.abs(sizes[1]) < least, 0.0, sizes[1])
     plain = replace(optimum.only(np.abs(sizes[0]) >= least), equality_multipliers=equations)
     return certificate(model, plain, VIOLATION)
-
-
-def lower_bound(proof: Certificate, limit: float | None) -> float:
-    """The better of the certificate's bound and the limit."""
-    return max(proof.bound, -np.inf if limit is None else limit) + 0.0
-
-
-def _balanced(model: Model, proof: Certificate) -> Certificate:
-    """The certificate with the least change of its directions that balances it; the better of both."""
-    if not any(contact.direction for contact in proof.contacts):
-        return proof
-    images = [_image(model, contact) for contact in proof.contacts]
-    slope = _slope(model, proof)
-    if all(image is None for image in images) or np.abs(slope).max(initial=0.0) <= _DIRECTIONS_BALANCED:
-        return proof
-    pulls = [c.multiplier * image for c, image in zip(proof.contacts, images, strict=True) if image is not None]
-    change = np.linalg.lstsq(np.vstack(pulls).T, -slope, rcond=_DIRECTIONS_RANK)[0]
-    parts = iter(np.split(change, np.cumsum([len(pull) for pull in pulls])[:-1]))
-    contacts = tuple(
-        contact if image is None else _with_direction(contact, np.array(contact.direction) + next(parts))
-        for contact, image in zip(proof.contacts, images, strict=True)
-    )
-    better = proof.with_leaf(contacts=contacts)
-    return better if better.bound > proof.bound else proof
 
 
 def _image(model: Model, contact: Contact) -> Array | None:
@@ -352,15 +271,6 @@ def _image(model: Model, contact: Contact) -> Array | None:
                 columns = family.columns(np.clip(family.u(np.array([contact.k])), *family.domain))[0, 0, :terms] * share
                 return np.vstack([columns.real, columns.imag])
     return None
-
-
-def _slope(model: Model, proof: Certificate) -> Array:
-    """The remainder of the slopes of objective and contacts with respect to the coordinates."""
-    slope = model.program.objective.copy()
-    for contact in proof.contacts:
-        slope += max(contact.multiplier, 0.0) * row_of(model.program, contact)[0]
-    slope += model.program.equalities.T @ model.program.multipliers_of_equations(proof.equations)
-    return np.asarray(slope[: model.space.terms])
 
 
 def _with_direction(contact: Contact, direction: Array) -> Contact:
@@ -426,9 +336,9 @@ class _Tangents:
                 return best
             *weights, equations = LinearTable(program, points).sharp(vertex, points).multipliers
             proof = self._stated(weights, points, equations)
-            best = proof if best is None or proof.bound > best.bound else best
+            best = proof if best is None or proof.estimate > best.estimate else best
             if (
-                best.bound >= objective - _CUTS_ENOUGH * max(abs(objective), _CUTS_ENOUGH)
+                best.estimate >= objective - _CUTS_ENOUGH * max(abs(objective), _CUTS_ENOUGH)
                 or len(self.rows) > _MOST_TANGENTS
             ):
                 return best

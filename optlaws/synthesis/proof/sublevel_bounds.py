@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from fractions import Fraction
 from math import inf, isfinite, sqrt
 from typing import Any
 
@@ -21,7 +20,6 @@ from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leav
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, maxima, relaxed_power
 from optlaws.synthesis.spaces.space import LawSpace
-from optlaws.tolerances import VALUE_ROUNDING
 
 _SUBLEVEL_RANK = 1e-15  # of the greatest singular value: less is rounding
 
@@ -152,15 +150,15 @@ class Sublevel:
                 least[nu] = min(least.get(nu, inf), mean)
         return least
 
-    def means_by(self, name: str, scale: float = 1.0) -> Iterator[tuple[int, Number, Number]]:
+    def means_by(self, name: str) -> Iterator[tuple[int, Number, Number]]:
         """Orders of derivatives whose mean a constant bounds in proportion: with the bound at 0, and how fast it grows.
 
         Of several bounds the least is nowhere above a line that it touches at three places.
         """
-        none, some, more = (self.means({name: self.number(times * scale)}) for times in (0.0, 1.0, 2.0))
+        none, some, more = (self.means({name: self.number(times)}) for times in (0.0, 1.0, 2.0))
         for nu in none.keys() & some.keys() & more.keys():
-            growth, exact = some[nu] - none[nu], isinstance(more[nu], Fraction)
-            if abs(more[nu] - some[nu] - growth) <= (0 if exact else VALUE_ROUNDING) * abs(more[nu]):
+            growth = some[nu] - none[nu]
+            if more[nu] - some[nu] == growth:
                 yield nu, none[nu], growth
 
 
@@ -190,16 +188,6 @@ def moments(model: Model, greatest: Mapping[str, Number]) -> list[tuple[Array, A
     space = model.space
     known = Sublevel.of(model).means(greatest).items()
     return [(float(mean) + _base_moments(space, nu), _extension(space, nu)) for nu, mean in known]
-
-
-def means_by(model: Model, name: str) -> list[tuple[Array, Array, float]]:
-    """Bounds of means of derivatives as affine functions of a constant's variable.
-
-    For each derivative whose mean the constant bounds in proportion: bounds of its moments where the constant is 0,
-    but for the base law, the matrix of `moments`, and by how much the bounds grow with the variable.
-    """
-    space, known = model.space, Sublevel.of(model).means_by(name, model.scales.get(name, 1.0))
-    return [(none + _base_moments(space, nu), _extension(space, nu), float(growth)) for nu, none, growth in known]
 
 
 def _base_moments(space: LawSpace, nu: int) -> Array:

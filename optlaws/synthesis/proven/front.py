@@ -327,7 +327,7 @@ class ProvenFront(JsonText):
             problem,
             law,
             evaluate(problem, law).objective,
-            max(proofs, key=lambda certificate: certificate.bound),
+            max(proofs, key=lambda certificate: certificate.estimate),
         )
 
     def _averaged(self, i: int, share: float, value: float, problem: Problem) -> FrontPoint:

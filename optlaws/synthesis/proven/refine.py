@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.numbers import Array, positive, real
-from optlaws.synthesis.arrays.dual_bounds import bounds_below, rounding_charge, sharp_sums
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.pareto import least_value, where_it_pays
 from optlaws.synthesis.problem.constants import FUNCTIONALS
@@ -21,7 +20,7 @@ from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import apart
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.proof.sublevel_bounds import Sublevel
+from optlaws.synthesis.proof.duality import bounds_below, charge, summed
 from optlaws.synthesis.proven.front import LazySequence, ProvenFront
 from optlaws.synthesis.proven.swept_parameter import SweptParameter, bounds_beside, gap_bounds
 from optlaws.synthesis.solution import Solution
@@ -275,11 +274,11 @@ def lower_lines(part: SolvedPart, values: Array, number: SweptParameter, ends: t
     sizes, contacts = np.abs(every), part.optima.u.shape[1]
     sizes[:, contacts:, -1] = np.maximum(sizes[:, contacts:, -1], np.abs(model.program.right))
     cost = np.broadcast_to(model.program.objective, (len(both), model.program.size))
-    slope, blur, plain, hidden = sharp_sums(model, cost, both, every, sizes)
+    slope, blur, plain, hidden = summed(cost, both, every, sizes)
     rise = -part.optima.equations[:, 0]
     claim = max(float((plain + rise * (end - values)).max()) for end in ends)
-    below = bounds_below(model, Sublevel.of(model).greatest_values(max(model.unit * claim, 0.0)))
-    lost = rounding_charge(model, below, slope, blur)
+    below = bounds_below(model, model.unit * claim)
+    lost = charge(model, below, slope, blur)
     return model.unit * np.column_stack([plain - hidden - lost, rise])
 
 

@@ -27,7 +27,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.program.evaluation import evaluate
 from optlaws.synthesis.proof.certificate import Certificate, weighted_rows
-from optlaws.synthesis.proof.duality import rounding_error_bound, summed
+from optlaws.synthesis.proof.duality import bounds_below, charge, sum_of_lines
 from optlaws.synthesis.status import measure
 
 _PRODUCT_ROUNDING = 2.0**-50  # of a product: what rounding of it and of its factors can be
@@ -167,11 +167,11 @@ def bounds_beside(
         claim = max(top + rise * (end - value) for end in ends)
     model, lines = weighted_rows(certificate)
     there = [weighted_rows(replace(certificate, problem=number.at(end))) for end in ends]
-    total, weights = summed(model, lines), np.array([weight for weight, _, _ in lines])
+    total, weights = sum_of_lines(model, lines), np.array([weight for weight, _, _ in lines])
     rates, rounding = _rates(number, ends, *(rows for _, rows in there))
-    low, slope = model.unit * total.value, -float(model.unit * (weights @ rates))
+    low, slope = model.unit * float((total.value - total.hidden)[0]), -float(model.unit * (weights @ rates))
     most = max(claim, *(low + slope * (end - value) for end in ends))
-    hidden = max(rounding_error_bound(moved, total, most) for moved, _ in there)
+    hidden = max(float(charge(moved, bounds_below(moved, most), total.slope, total.blur)[0]) for moved, _ in there)
     lost = model.unit * (hidden + float(np.abs(weights) @ rounding))
     return top, low - lost if isfinite(lost) else -inf, rise if number.concave else slope
 

@@ -6,7 +6,7 @@ from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
-from numpy.polynomial import chebyshev, legendre
+from numpy.polynomial import chebyshev
 
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
@@ -117,40 +117,8 @@ class PieceSpace(LawSpace):
         for nu, k, value in conditions:
             row = self.row(nu, k)
             symbol = symbols[nu] if nu < len(symbols) else f"a^({nu})"
-            position = (k, value) if nu == 0 else None
-            rows.append(Equation(f"{symbol}({k:g}) = {value:g}", row[:-1], value - float(row[-1]), position))
+            rows.append(Equation(f"{symbol}({k:g}) = {value:g}", row[:-1], value - float(row[-1])))
         return rows
-
-    def bends(self, places: tuple[float, ...]) -> Array | None:
-        """Differences of mean velocities after and before each place but the last: c, weighted over both ways.
-
-        The weight of c rises from 0 at the place before (0 at first) to 1 and falls to 0 at the place after, so that
-        few coordinates matter, and nothing cancels. Shape (places - 1, terms + 1), the base law's column last.
-
-        >>> space = piece_space(BoundaryConditions.rest(2), (0.0, 0.5, 1.0), 2, 1, symmetric=False)
-        >>> space.bends((0.5, 1.0)).tolist()
-        [[0.25, 0.25, 0.0]]
-        """
-        return None if self.symmetric else self.cached(("bends", places), lambda: self._bent(np.array([0.0, *places])))
-
-    def _bent(self, ends: Array) -> Array:
-        edges = np.unique(np.concatenate([ends, self.k[self.k < ends[-1]]]))
-        low, length = edges[:-1], np.diff(edges)
-        piece = np.searchsorted(self.k, low, side="right") - 1
-        way = np.searchsorted(ends, low, side="right") - 1
-        x, weights = legendre.leggauss(self._order // 2 + 2)
-        share = (1.0 + x) / 2.0
-        of_piece = (low - self.k[piece])[:, None] + length[:, None] * share
-        local = 1.0 - 2.0 * of_piece / np.diff(self.k)[piece][:, None]
-        basis = chebyshev.chebvander(local.reshape(-1), self._order)
-        values = self.pieces(2).sums(basis, np.repeat(piece, len(x)))
-        risen = ((low - ends[way])[:, None] + length[:, None] * share) / np.diff(ends)[way][:, None]
-        first = np.searchsorted(way, np.arange(len(ends) - 1)) * len(x)
-        rising, falling = (
-            np.add.reduceat((length[:, None] * weights / 2.0 * part).reshape(-1, 1) * values, first)
-            for part in (risen, 1.0 - risen)
-        )
-        return np.asarray(rising[:-1] + falling[1:])
 
     def law(self, coordinates: Array) -> PiecewiseLaw:
         point = np.append(coordinates, 1.0)

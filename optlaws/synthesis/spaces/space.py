@@ -34,7 +34,6 @@ class Equation:
     name: str
     row: Array
     right: float
-    position: tuple[float, float] | None = None  #: k and a(k), where that is what it states
 
 
 @dataclass(frozen=True, eq=False)
@@ -223,10 +222,6 @@ class LawSpace(ABC):
     def equations(self) -> list[Equation]:
         """Conditions that the coordinates must keep; none where the free functions keep them all."""
         return []
-
-    def bends(self, places: tuple[float, ...]) -> Array | None:  # noqa: ARG002 - none where functions are not local
-        """Differences of mean velocities before and after places, as rows; None where no law is bent there alone."""
-        return None
 
     def widened(self, columns: Array, size: int) -> Array:
         """Columns for `size` variables: those beyond the coordinates are zero, the base law's stays last."""

@@ -8,7 +8,7 @@ from functools import cache
 from itertools import pairwise
 from typing import NamedTuple
 
-from flint import arb, fmpq, fmpq_poly
+from flint import arb, fmpq, fmpq_mat, fmpq_poly
 
 from optlaws.kept import kept_property
 from optlaws.synthesis.problem.problem import Problem
@@ -176,17 +176,22 @@ class ExactSpace:
 
         These are Legendre polynomials; one list for each that sees a free function.
         """
-        moments: list[list[list[arb]]] = []
+        return [[[arb(entry) for entry in row] for row in piece] for piece in self._moments(nu)]
+
+    @kept_property
+    def _moments(self) -> Callable[[int], list[list[list[fmpq]]]]:
+        return cache(self._computed_moments)
+
+    def _computed_moments(self, nu: int) -> list[list[list[fmpq]]]:
+        moments: list[list[list[fmpq]]] = []
         for part, (low, high) in zip(self.derivative(nu), pairwise(self.breaks), strict=True):
             local = fmpq_poly([rational(low + high - 1), rational(high - low)])
             functions = [function(local) for function in part]
             degree = max((function.degree() for function in functions[:-1]), default=-1)
-            moments.append([])
-            for m in range(degree + 1):
-                products = [(function * fmpq_poly.legendre_p(m)).integral() for function in functions]
-                row = [(p(fmpq(1)) - p(fmpq(-1))) / 2 * rational(high - low) for p in products]
-                if any(row[:-1]):
-                    moments[-1].append([arb(entry) for entry in row])
+            size = max(degree, functions[-1].degree()) + 1
+            powers = fmpq_mat([[function[i] for i in range(size)] for function in functions])
+            rows = (rational(high - low) * _of_legendre(degree + 1, size) * powers.transpose()).tolist()
+            moments.append([row for row in rows if any(row[:-1])])
         return moments
 
     def gauss(self, nu: int, count: int) -> list[tuple[list[arb], arb]]:
@@ -208,6 +213,16 @@ class ExactSpace:
             middle, half, share = ball(low + high - 1), ball(high - low), ball((high - low) / whole / 2)
             points += [(values(part, middle + half * x), weight * share) for x, weight in rule]
         return points
+
+
+def _of_legendre(count: int, size: int) -> fmpq_mat:
+    """Halves of the integrals from -1 to 1 of Legendre's polynomials times powers of x, a row for each polynomial."""
+    rows = []
+    for m in range(count):
+        legendre = fmpq_poly.legendre_p(m)
+        # of x^(i+j) none where i + j is odd
+        rows.append([sum((legendre[j] / (i + j + 1) for j in range(i % 2, m + 1, 2)), fmpq(0)) for i in range(size)])
+    return fmpq_mat(count, size, [entry for row in rows for entry in row])
 
 
 def values(polynomials: Functions, x: arb) -> list[arb]:

@@ -15,7 +15,7 @@ from math import inf, isfinite
 from flint import arb, arb_mat, ctx
 
 from optlaws.errors import InputError
-from optlaws.synthesis.limits.rounding import rounded_up
+from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.nodes import Contact
@@ -25,7 +25,7 @@ from optlaws.verification.exact.charge import Vector, charge, summed
 from optlaws.verification.exact.places import places_hold
 from optlaws.verification.exact.rows import ExactRows
 
-_MORE_BITS = (1, 2, 4)
+_MORE_BITS = (1, 4, 16)
 _DEAR = 1e-10  # of a sum: what a charge that is more takes, repaired multipliers may not
 
 
@@ -72,12 +72,13 @@ def prove(certificate: Certificate, along: Along | None = None) -> Proof:
     if certificate.points is not None:
         return Proof(Fraction(certificate.claim or 0) if tree_holds(certificate) else None)
     if certificate.peak:
-        return Proof(Fraction(certificate.claim or 0) if places_hold(certificate, _bits(certificate)) else None)
+        return Proof(Fraction(certificate.claim or 0) if places_hold(certificate, 4 * _bits(certificate)) else None)
     for times in _MORE_BITS:
         with ctx.workprec(_bits(certificate) * times):
             rows = ExactRows(certificate)
             best = _proof(rows, certificate, along)
-        if best.value is not None:
+        # balls that are too wide show nothing, or are charged
+        if best.value is not None and arb(best.charge) <= ball(_DEAR) * ball(abs(best.value)):
             break
     if certificate.program == VIOLATION or along is not None:
         return best
@@ -88,8 +89,17 @@ def prove(certificate: Certificate, along: Along | None = None) -> Proof:
     return best
 
 
+def bound_of_leaf(certificate: Certificate) -> float | None:
+    """The bound of one leaf, rounded down; None where exact arithmetic does not know a constant of the problem."""
+    try:
+        value = prove(certificate).value
+    except InputError:
+        return None
+    return -inf if value is None else rounded_down(value)
+
+
 def _bits(certificate: Certificate) -> int:
-    return 384 + 16 * (2 * certificate.problem.order + int(getattr(certificate.problem.basis, "degree", 0)))
+    return 96 + 4 * (2 * certificate.problem.order + int(getattr(certificate.problem.basis, "degree", 0)))
 
 
 def _proof(rows: ExactRows, certificate: Certificate, along: Along | None) -> Proof:

@@ -89,7 +89,7 @@ def known(term: Term) -> Known:
         return of_derivatives(term)
     raise InputError(
         "exact verification knows peaks, power and RMS of derivatives, constants of cams, of machines and "
-        f"of formulas as optlaws defines them, not {term!r}: what bounds it is checked with numpy alone, by "
+        f"of formulas as optlaws defines them, not {term!r}: what bounds it is checked in doubles, by "
         "Certificate.bound. A peak of derivatives is known by its method derivatives"
     )
 

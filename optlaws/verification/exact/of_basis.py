@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import singledispatch
+from functools import lru_cache, singledispatch
 from math import factorial
 
 from flint import fmpq, fmpq_mat, fmpq_poly
@@ -30,6 +30,11 @@ def exact_space(problem: Problem) -> ExactSpace:
     >>> exact_space(Problem(B=1.6, order=1, basis=Chebyshev(1))).derivative(1)
     [[3/2*x^2 + (-1/2), 1]]
     """
+    return _of_shape(problem.shape)
+
+
+@lru_cache(maxsize=16)
+def _of_shape(problem: Problem) -> ExactSpace:
     return _space(problem.basis, problem)
 
 

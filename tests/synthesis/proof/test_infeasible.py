@@ -25,7 +25,7 @@ from optlaws import (
     via,
 )
 from optlaws.verification import exact_bound
-from tests.internals.synthesis import contradiction, farkas_margin, independent
+from tests.internals.synthesis import contradiction, independent
 from tests.internals.verification import prove
 
 CONTRADICTIONS = [
@@ -140,20 +140,6 @@ def test_multipliers_of_equations_that_contradict_each_other() -> None:
             assert proof @ wrong < 0.0
     assert independent(np.vstack([rows, rows])).sum() == 3
     assert independent(np.zeros((2, 3))).sum() == 0
-
-
-def test_rows_contradict_each_other_only_by_what_their_multipliers_show() -> None:
-    rows = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, -1.0]])
-    # no x and y have both x <= 0, y <= 0 and x + y >= s
-    for least in (1.0, 1e-6):
-        right = np.array([0.0, 0.0, -least])
-        assert farkas_margin(rows, right, np.ones(3), 3) == pytest.approx(least)
-        assert farkas_margin(rows, right, np.array([1.0, 1.0 + 1e-9, 1.0]), 3) == pytest.approx(least)
-        assert farkas_margin(rows, right, np.array([1.0, 0.5, 1.0]), 3) <= least * (1.0 + 1e-12)
-    assert farkas_margin(rows, np.array([0.0, 0.0, 1.0]), np.ones(3), 3) < 0.0
-    # without the second row there is a law, and no multipliers say otherwise
-    assert farkas_margin(rows[[0, 2]], np.array([0.0, -1.0]), np.ones(2), 2) < 0.0
-    assert farkas_margin(rows[:0], np.empty(0), np.empty(0), 0) == 0.0
 
 
 @pytest.mark.long
