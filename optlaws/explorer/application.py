@@ -21,7 +21,7 @@ from starlette.routing import Route
 
 from optlaws import Drive, catalogue
 from optlaws.explorer.answering import EXAMPLES, QUESTIONS, message
-from optlaws.explorer.views import cam_view, cycle_view, machine_view, old_cam_view
+from optlaws.explorer.views import cam_view, cycle_view, law_view, machine_view, old_cam_view
 from optlaws.explorer.workers import MOST, SLICE, USUAL, Workers
 from optlaws.exports.format import FORMATS
 from optlaws.jobs.fastest import MoveEntries
@@ -50,6 +50,7 @@ def application(start: dict[str, Any], workers: Workers | None = None) -> Starle
     known = {
         "names": [*catalogue, *_MEMBERS],
         "examples": {name: example() for name, example in EXAMPLES.items()},
+        "law": law_view.form(),
         "cam": cam_view.form(),
         "programme": cycle_view.form(),
         "move": MoveEntries.form()["entries"],

@@ -8,6 +8,7 @@ from math import isfinite
 from typing import Any, NamedTuple
 
 from optlaws.numbers import bounded
+from optlaws.sentences import Amount, sentence
 from optlaws.shown.report import ReportTable, Section
 from optlaws.shown.summary import PAGE_UNITS, Row
 
@@ -123,7 +124,7 @@ class Differences:
     def rows(self) -> list[Row]:
         """A row of facts for each quantity that has both values."""
         return [
-            Row(each.name, each.chosen, each.unit, note=_note(each, self.usual))
+            Row(each.name, each.chosen, each.unit, note=_note(each.text, self.usual, Amount(each.usual, each.unit, 5)))
             for each in map(_in_shown_unit, self.values)
             if each.chosen is not None and each.usual is not None
         ]
@@ -166,6 +167,5 @@ def _in_shown_unit(each: Difference) -> Difference:
     return each._replace(unit=unit, usual=usual, chosen=chosen)
 
 
-def _note(each: Difference, usual: str) -> str:
-    known = f"{usual} has {each.usual:.5g} {each.unit}".strip()
-    return f"{each.text}: {known}" if each.text else known
+def _note(change: str, usual: str, value: Amount) -> str:
+    return sentence("{}{} has {}", f"{change}: " if change else "", usual, value)

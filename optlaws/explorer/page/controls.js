@@ -5,14 +5,14 @@ import { createForm, slider } from "./form.js";
 import { group } from "./layout.js";
 import { button, html } from "./svg.js";
 
-/** Each constant: how it is written, its words, and the range of its bound with the step. */
-const CONSTANTS = { C: ["C", "peak acceleration", 3.5, 15, 0.01], D: ["D", "peak power", 2, 15, 0.01], J: ["J", "peak jerk", 20, 300, 0.1], rms_c: ["rms c", "rms acceleration", 3.4, 8, 0.01] };
 const SIZES = { stroke: "none, or 35 mm", time: "none, or 0.1 s", mass: "none, or 2 kg" };
+const words = ({ about }) => about.replace(/[,.:].*/, "").replace(/^P/, "p");
 
-/** `value(name)` is the constant of the law that is shown. */
-export function createControls(root, study, value) {
+/** `value(name)` is the constant of the law that is shown; `declared` are the entries of a law. */
+export function createControls(root, study, value, declared) {
   const shows = [];
-  const problem = html("div", {}, objective(), shape(), bounds());
+  const problemForm = createForm((what, alter) => change(what, ({ problem }) => alter(problem)), () => study.rest());
+  const problem = html("div", {}, objective(), group("Law", ...declared.space.flatMap(space)), bounds());
   const known = standard();
   const sizesForm = createForm((what, alter) => study.change(`machine ${what}`, (state) => {
     alter((state.controller ??= {}));
@@ -26,26 +26,29 @@ export function createControls(root, study, value) {
     problem.hidden = !law.problem;
     known.hidden = Boolean(law.problem);
     sizesForm.show(controller);
-    if (law.problem) for (const show of shows) show(law);
+    if (!law.problem) return;
+    problemForm.show(law.problem);
+    for (const show of shows) show(law);
   }
 
   function change(what, alter) {
     study.change(what, (state) => alter(state.laws[state.active]));
   }
 
-  function field(key, options, of, alter) {
+  /** A slider of a value of the law, which `of` reads and `alter` changes. */
+  function slide(key, options, of, alter) {
     const field = slider({ ...options, changed: (value) => change(key, (law) => alter(law, value)), rested: () => study.rest() });
     shows.push((law) => field.set(of(law)));
     return field.element;
   }
 
   function objective() {
-    const rows = Object.entries(CONSTANTS).map(([name, [text, words]]) => {
-      const row = field(`weight ${name}`, { name: text, title: `Weight of ${words} in the objective`, low: 0, high: 1, step: 0.05, most: 100 }, (law) => weights(law)?.[name] ?? 0, (law, value) => minimise(law, { ...weights(law), [name]: value }));
-      row.firstElementChild.replaceChildren(button(text, () => change(`alone ${name}`, (law) => minimise(law, { [name]: 1 })), { class: "link", title: `Minimise the ${words} alone` }));
+    const rows = declared.constants.map(({ name, label, ...entry }) => {
+      const row = slide(`weight ${name}`, { name: label, title: `Weight of ${words(entry)} in the objective`, low: 0, high: 1, step: 0.05, most: 100 }, (law) => weights(law)?.[name] ?? 0, (law, value) => minimise(law, { ...weights(law), [name]: value }));
+      row.firstElementChild.replaceChildren(button(name.replace("_", " "), () => change(`alone ${name}`, (law) => minimise(law, { [name]: 1 })), { class: "link", title: `Minimise the ${words(entry)} alone` }));
       return row;
     });
-    const formula = html("input", { type: "text", placeholder: "or a formula: max(C/4, D/2.25)", "aria-label": "Objective as a formula", spellcheck: "false", maxlength: 300 });
+    const formula = html("input", { type: "text", placeholder: "or a formula: max(C/4, D/2.25)", "aria-label": "Objective as a formula", title: declared.minimise.about, spellcheck: "false", maxlength: 300 });
     formula.addEventListener("change", () => change("formula", (law) => {
       if (formula.value.trim()) law.problem.minimise = formula.value.trim();
       else minimise(law, { C: 1 });
@@ -54,27 +57,17 @@ export function createControls(root, study, value) {
     return group("Minimise", html("p", { class: "hint", text: "weights of C/4, D/2.25, J/32, rms c/3.46: each by its least value of all laws" }), ...rows, formula);
   }
 
-  function shape() {
-    const whole = (name, text, title, low, high, most, usual) => field(name, { name: text, title, low, high, step: 1, most }, ({ problem }) => problem[name] ?? usual, ({ problem }, value) => (problem[name] = Math.round(value)));
-    return group(
-      "Law",
-      field("B", { name: "B", title: "Peak velocity B", low: 1.05, high: 2.6, step: 0.001, off: true }, velocity, (law, value = rounded("B")) => setVelocity(law, value)),
-      whole("order", "order l", "Order: end conditions at each end", 2, 8, 12, 2), whole("degree", "degree", "Degree of Z", 1, 25, 41, 9),
-      toggle("monotone", "no return (b ≥ 0)", false), toggle("symmetric", "symmetric", true),
-    );
-  }
-
-  function toggle(name, text, usual) {
-    const box = html("input", { type: "checkbox", onchange: () => change(name, ({ problem }) => {
-      if (box.checked === usual) delete problem[name];
-      else problem[name] = box.checked;
-    }) });
-    shows.push(({ problem }) => (box.checked = problem[name] ?? usual));
-    return html("label", { class: "switch" }, box, text);
+  /** An entry of the problem as it is declared; the peak velocity is a number or free. */
+  function space(entry) {
+    const { name, label, slider: range, default: usual, example } = entry;
+    if (!range) return problemForm.fields([entry]);
+    if (name === "B") return slide("B", { name, title: `${words(entry)} B`, ...range, off: true }, velocity, (law, value = rounded("B")) => setVelocity(law, value));
+    return slide(name, { name: label, title: label, ...range }, ({ problem }) => problem[name] ?? usual ?? example, ({ problem }, value) => (problem[name] = Math.round(value)));
   }
 
   function bounds() {
-    return group("At most", ...Object.entries(CONSTANTS).map(([name, [text, words, low, high, step]]) => field(`bound ${name}`, { name: `${text} ≤`, title: `Greatest ${words}`, low, high, step, off: true }, (law) => bound(law, name), (law, value = rounded(name)) => setBound(law, name, value))));
+    const field = ({ name, slider: range, ...entry }) => slide(`bound ${name}`, { name: `${name.replace("_", " ")} ≤`, title: `Greatest ${words(entry)}`, ...range, off: true }, (law) => bound(law, name), (law, value = rounded(name)) => setBound(law, name, value));
+    return group("At most", ...declared.constants.map(field));
   }
 
   /** A bound that the law of now keeps. */

@@ -30,13 +30,13 @@ export function createTray(root, study) {
     renew(root, ...chips(titles, active, (i) => study.change("active", (state) => (state.active = i)), remove), ...(laws.length < MOST ? adding() : []));
   }
 
-  /** Compare with a standard law by its name. */
+  /** Compare with a standard law by its name; what there is to say where there is no room for one more. */
   function add(name) {
-    study.change(`add ${name}`, (state) => {
-      const there = state.laws.findIndex((law) => law.name === name);
-      if (there >= 0) state.active = there;
-      else if (state.laws.length < MOST) state.active = state.laws.push({ name }) - 1;
-    });
+    const { laws } = study.state;
+    const there = laws.findIndex((law) => law.name === name);
+    if (there < 0 && laws.length >= MOST) return `${MOST} laws are compared: take one away before ${name} is added`;
+    study.change(`add ${name}`, (state) => (state.active = there < 0 ? state.laws.push({ name }) - 1 : there));
+    return "";
   }
 
   function remove(i) {

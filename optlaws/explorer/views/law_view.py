@@ -18,6 +18,7 @@ from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFa
 from optlaws.explorer.views.panel_data import beside_each_other, panel_data
 from optlaws.explorer.views.requests import (
     MOST_DEGREE,
+    MOST_ORDER,
     LawRequest,
     LawsRequest,
     law_of,
@@ -33,6 +34,7 @@ from optlaws.motion.quantities import UNITS, either, quantity
 from optlaws.numbers import bounded
 from optlaws.sentences import Amount
 from optlaws.synthesis.limits.of_problem import limited_laws
+from optlaws.synthesis.problem.problem import ENTRIES
 from optlaws.synthesis.proof.infeasible import possible_velocities
 from optlaws.synthesis.status import gap_text
 from optlaws.tolerances import BOUND_SLACK
@@ -42,6 +44,36 @@ Answer: TypeAlias = Callable[[Any], dict[str, Any]]
 
 TITLES = {Status.OPTIMAL: "proven optimal", Status.LOCAL: "local", Status.INACCURATE: "bound not met"}
 _LONG_NUMBER = re.compile(r"\d+\.\d{4,}")
+
+#: from where to where the sliders of entries of a law go, by which step, and the greatest value that is taken
+_SLIDERS = {
+    "B": (1.05, 2.6, 0.001, None),
+    "order": (2, 8, 1, MOST_ORDER),
+    "degree": (1, 25, 1, MOST_DEGREE),
+    "C": (3.5, 15.0, 0.01, None),
+    "D": (2.0, 15.0, 0.01, None),
+    "J": (20.0, 300.0, 0.1, None),
+    "rms_c": (3.4, 8.0, 0.01, None),
+}
+
+
+def form() -> dict[str, Any]:
+    """What the form of a law shows: the entries of its space, and the constants that are weighed and bounded.
+
+    A constant that problems name only among their bounds has the words of its own.
+    """
+    entries = {name: each.form for name, each in ENTRIES.items()}
+    entries["rms_c"] = {"name": "rms_c", "label": "rms c", "about": "RMS acceleration."}
+
+    def shown(name: str) -> dict[str, Any]:
+        slider = dict(zip(("low", "high", "step", "most"), _SLIDERS[name], strict=True)) if name in _SLIDERS else None
+        return entries[name] | ({"slider": slider} if slider else {})
+
+    return {
+        "minimise": entries["minimise"],
+        "space": [shown(name) for name in ("B", "order", "degree", "monotone", "symmetric")],
+        "constants": [shown(name) for name in ("C", "D", "J", "rms_c")],
+    }
 
 
 def answer(request: LawsRequest) -> dict[str, Any]:

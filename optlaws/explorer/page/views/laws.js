@@ -28,7 +28,7 @@ const WORDS = () => [
 
 const NAMES = ["B", "C", "D", "J", "rms_c"];
 
-export function createView(root, study, _start, drawn) {
+export function createView(root, study, { law }, drawn) {
   const files = ["python", "problem", "law", "table"];
   let stateShown = null;
   let lawViews = [];
@@ -42,15 +42,18 @@ export function createView(root, study, _start, drawn) {
     html("aside", { id: "ask", "aria-label": "What is asked of the law" }),
     column("middle", "Laws in the plane of their constants", part("tray", { class: "tray", role: "group", "aria-label": "Laws side by side" }),
       growing(head(part("pictures", { role: "tablist", "aria-label": "Pictures" }), html("p", { id: "words", class: "quiet" })), picture("plane"), part("follower", { hidden: true }), explained(WORDS())),
-      status("trust"), panel("table")),
+      status("trust"), panel("table", { tabindex: "0", role: "group", "aria-label": "Constants of the laws" })),
     html("section", { id: "curves", class: "panel", "aria-label": "The law and its derivatives over k" }),
   );
   const curves = createPanels(at.curves);
-  const controls = createControls(at.ask, study, value);
+  const controls = createControls(at.ask, study, value, law);
   const tray = createTray(at.tray, study);
   const [plane, residual] = [html("div", { class: "fill" }), html("div", { class: "fill", id: "residual" })];
   at.plane.append(plane, residual);
-  const lawPlane = createPlane(plane, (x) => askedOf(study.state.laws[study.state.active], x), moveLaw, (name) => tray.add(name));
+  const lawPlane = createPlane(plane, (x) => askedOf(study.state.laws[study.state.active], x), moveLaw, (name) => {
+    words = tray.add(name) || words;
+    render();
+  });
   const band = createBand(study);
   const residualPanels = createPanels(residual, { strip: band.strip });
   residualPanels.cursor.watch((at, placed) => placed && at !== null && at !== study.state.frequency && study.change("frequency", (state) => (state.frequency = Number(at.toPrecision(4)))));
