@@ -24,7 +24,7 @@ MAY_IMPORT = {
     "lazy": {"spelling"},
     "numbers": {"echo", "errors"},
     "sentences": set[str](),
-    "shown": {"numbers"},
+    "shown": {"numbers", "sentences"},
     "spelling": set[str](),
     "tolerances": set[str](),
     "numerics": BASE - {"shown"},

@@ -91,3 +91,9 @@ def test_every_view_keeps_wcag_cuts_no_field_and_says_the_numbers_of_its_picture
     # examples that were looked at and not changed are in no address
     page.wait_for_url(f"**view=%22{view}%22**")
     assert set(parse_qs(urlsplit(page.url).fragment)) <= {"view", "law", view}
+    # what does not fit into a small screen is scrolled, by keys too
+    page.set_viewport_size({"width": 375, "height": 800})
+    for view in ("laws", "axes"):
+        page.locator(f"#views [data-key={view}]").click()
+        settle(page)
+        assert violations(page) == [], view

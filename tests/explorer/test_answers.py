@@ -100,6 +100,13 @@ def test_points_of_a_front_are_laws_of_their_own_problems(pair: tuple[str, str])
     assert getattr(alone.constants, y).value == pytest.approx(second, rel=1e-4 if y == "J" else 2e-6)
 
 
+def test_laws_between_the_points_of_a_front_lie_on_its_line() -> None:
+    at, values = zip(*curve(front_view.front(Problem(order=4), "B", "C"), "front"), strict=True)
+    for B in (1.26, 1.313, 1.338):
+        law_between = synthesize(Problem(order=4, B=B))
+        assert np.interp(B, at, values) == pytest.approx(law_between.objective, abs=6.5e-3)  # 1e-3 of the picture
+
+
 def test_a_front_ends_where_laws_end_and_its_limit_lies_below() -> None:
     found = front_view.front(Problem(order=4, J=at_most(70.0)), "B", "C")
     line, limits = curve(found, "front"), dict(curve(found, "best possible"))

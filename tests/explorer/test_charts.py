@@ -87,7 +87,7 @@ def test_curves_are_zoomed_moved_and_whole_again(page: Page, served: Server) -> 
 @pytest.mark.parametrize(("view", "root"), [("laws", "#curves"), ("cycle", "#motion"), ("cam", "#cam-curves")])
 def test_what_is_written_at_peaks_never_overlaps(page: Page, served: Server, view: str, root: str) -> None:
     go(page, served.link(laws=[STEEP], view=view, picture="residual"))
-    for panel in page.locator(f"{root} svg").all():
+    for panel in page.locator(f"{root} .curve").all():
         written = boxes(panel.locator(".peak text, .title"))
         assert all(apart(one, other) for one, other in combinations(written, 2))
     assert page.locator(f"{root} .peak circle").count() > 1
@@ -146,7 +146,7 @@ def test_one_cursor_goes_through_the_cam_its_curves_and_what_is_read(page: Page,
 
 def test_the_segment_at_the_cursor_stands_out_in_the_table(page: Page, served: Server) -> None:
     go(page, served.link(view="cycle", laws=[OPTIMAL]))
-    box = page.locator("#motion svg").first.bounding_box()
+    box = page.locator("#motion .curve").first.bounding_box()
     assert box is not None
     page.mouse.move(box["x"] + 64 + 0.75 * (box["width"] - 78), box["y"] + 40)
     assert page.locator("#segments [aria-current] th").inner_text() == "Return"

@@ -286,7 +286,7 @@ def test_a_gear_a_motor_and_laws_are_changed_in_the_page(page: Page, served: Ser
     field.press("Enter")
     settle(page)
     assert page.locator("#machine-tray .chip").count() == 3
-    assert page.locator("#machine-curves svg").first.locator(".line").count() >= 3
+    assert page.locator("#machine-curves .curve").first.locator(".line").count() >= 3
     assert 'name = "cycloidal"' in saves(page, "problem")
     assert page.locator("#machine-drawing svg").count() == 1
     page.get_by_label("Time in the cycle, thousandths").fill("500")

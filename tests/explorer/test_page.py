@@ -105,6 +105,17 @@ def test_keys_move_the_law_and_undo_takes_it_back(page: Page, served: Server) ->
     assert velocity(page) == 1.81
 
 
+def test_a_number_that_is_cleared_stands_again_and_a_look_is_no_step(page: Page, served: Server) -> None:
+    go(page, served.link(laws=[OPTIMAL], picture="residual"))
+    field = page.get_by_label("Peak velocity B, number")
+    field.fill("")
+    field.press("Tab")
+    assert velocity(page) == 1.7
+    page.get_by_role("tab", name="Motion").click()
+    settle(page)
+    assert page.get_by_role("button", name="Undo").is_disabled()
+
+
 def test_a_problem_without_a_law_says_why_and_how_far_to_go_back(page: Page, served: Server) -> None:
     go(page, served.link(laws=[NONE], picture="residual"))
     assert "no such law" in page.locator("#trust").inner_text()
@@ -159,6 +170,16 @@ def test_a_standard_law_of_the_picture_is_compared(page: Page, served: Server) -
     assert texts(page, 1) == told(served, {"name": "modified sine"})
     assert page.locator("#words").inner_text().startswith("least C at each B")
     assert page.locator("#curves svg").first.locator(".line").count() == 2
+    for name in ("cycloidal", "cubic"):
+        page.get_by_label("Add a standard law by its name").fill(name)
+        page.get_by_label("Add a standard law by its name").press("Enter")
+        settle(page)
+    page.get_by_role("button", name="3-4-5 polynomial: B").press("Enter")
+    settle(page)
+    assert page.locator("#words").inner_text() == "4 laws are compared: take one away before 3-4-5 polynomial is added"
+    for name in ("cubic", "cycloidal"):
+        page.get_by_label(f"Take {name} away").click()
+    page.locator('[data-key="law 1"]').click()
     page.get_by_role("button", name="least C at its peak velocity").click()
     settle(page)
     assert "proven optimal" in page.locator("#trust").inner_text()
@@ -260,7 +281,7 @@ def test_a_cycle_is_shown_changed_and_refused(page: Page, served: Server) -> Non
     settle(page)
     cell = page.locator("#segments tbody tr >> nth=0 >> td >> nth=4")
     assert cell.inner_text() == "616"
-    assert page.locator("#motion svg").count() == 4
+    assert page.locator("#motion .curve").count() == 4
     page.get_by_label("limit velocity").fill("300 mm/s")
     settle(page)
     assert "no such law" in page.locator("#cycle-trust").inner_text()
@@ -311,7 +332,7 @@ def test_what_a_cycle_declares_is_in_its_form(page: Page, served: Server) -> Non
     assert position["values"][position["at"].index(80.0)] == pytest.approx(20.0, abs=1e-6)
     assert max(map(abs, snap["values"])) <= 60000.0 * (1.0 + 1e-6)
     assert answer["panels"][4]["limits"][0]["value"] == 60000.0
-    assert page.locator("#motion svg").count() == 5
+    assert page.locator("#motion .curve").count() == 5
     assert page.locator("#segments thead th").last.inner_text().startswith("peak snap")
     shown = page.locator("#segments tbody tr >> nth=0 >> td").last.inner_text()
     assert shown.replace("\u202f", "") == f"{answer['table']['rows'][0][-1]:.6g}"
@@ -368,18 +389,24 @@ def test_a_cam_is_changed_by_the_fields_that_its_values_declare(page: Page, serv
     assert page.get_by_label("face length").input_value() == "9.5 mm"
 
 
+def lift(page: Page) -> float:
+    """How far the roller of 12 mm is drawn above the shaft, in mm."""
+    (roller, radius), (shaft, _) = (
+        [float(page.locator(name).first.get_attribute(of) or "nan") for of in ("cy", "r")]
+        for name in (".roller", ".shaft")
+    )
+    return (shaft - roller) * 12.0 / radius
+
+
 def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Server) -> None:
     go(page, f"http://{served.host}/")
     page.get_by_role("tab", name="Cam", exact=True).click()
     settle(page)
     assert "no undercut" in page.locator("#cam-trust").inner_text()
     assert page.locator("#cam-curves svg").count() == 3
-    roller = page.locator(".roller")
-    lowest, radius = (float(roller.get_attribute(name) or "nan") for name in ("cy", "r"))
+    lowest = lift(page)
     page.get_by_label("Angle of the cam, degrees").fill("165")
-    # to the scale of the roller of 12 mm
-    lift = (lowest - float(roller.get_attribute("cy") or "nan")) * 12.0 / radius
-    assert lift == pytest.approx(35.0, abs=1e-3)
+    assert lift(page) == pytest.approx(lowest + 35.0, abs=1e-3)
     page.get_by_role("button", name="Run").click()
     page.wait_for_timeout(150)
     page.get_by_role("button", name="Pause").click()
@@ -412,6 +439,11 @@ def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Serv
     page.get_by_label("kind of follower").select_option("oscillating roller")
     settle(page)
     assert page.locator(".arm").count() == 1
+    page.get_by_label("kind of follower").select_option("translating roller")
+    assert page.get_by_label("offset", exact=True).input_value() == "6 mm"
+    page.get_by_label("kind of follower").select_option("oscillating flat")
+    settle(page)
+    assert "no undercut" in page.locator("#cam-trust").inner_text()
 
 
 def test_a_question_that_takes_long_can_be_stopped_and_undone(page: Page, served: Server) -> None:
@@ -492,6 +524,9 @@ def test_kinds_and_times_keep_what_was_given(page: Page, served: Server) -> None
     page.get_by_label("segment 0 kind").select_option("move")
     assert page.get_by_label("segment 0 by").input_value() == "35 mm"
     assert page.evaluate("() => document.activeElement.getAttribute('aria-label')") == "segment 0 kind"
+    for kind in ("dwell", "move"):
+        page.get_by_label("segment 0 kind").select_option(kind)
+    assert page.get_by_label("segment 0 by").input_value() == "35 mm"
     page.get_by_label("limit velocity").fill("none")
     settle(page)
     assert "not understood" not in page.locator("#cycle-trust").inner_text()

@@ -66,6 +66,7 @@ export function slider({ name, title, low, high, step, most = null, off = false,
   const range = html("input", { type: "range", min: low, max: high, step, "aria-label": title });
   const number = html("input", { type: "text", class: "numeric", inputmode: "decimal", autocomplete: "off", maxlength: 24, "aria-label": `${title}, number` });
   const given = (field) => (field === number ? plain(number.value.trim()) : field.value);
+  let shown = null;
   const toggle = off ? html("input", { type: "checkbox", "aria-label": `${title}: bounded` }) : null;
   const tell = (field) => given(field) !== "" && Number(given(field)) >= 0 && Number.isFinite(Number(given(field))) && changed(Math.min(most ?? Infinity, Number(given(field))));
   for (const field of [range, number]) {
@@ -80,8 +81,10 @@ export function slider({ name, title, low, high, step, most = null, off = false,
     tell(number);
   });
   toggle?.addEventListener("change", () => changed(toggle.checked ? undefined : null));
+  number.addEventListener("change", () => set(shown));
   const element = html("div", { class: "field" }, html(toggle ? "label" : "span", { class: "field-name" }, toggle, name), range, number);
   const set = (value) => {
+    shown = value;
     const none = value === null;
     element.classList.toggle("off", none);
     if (toggle) toggle.checked = !none;
@@ -111,6 +114,7 @@ function flattened(entries, path = []) {
 export function createForm(change, rested, taken = () => {}) {
   let shownShape = "";
   let shows = [];
+  const left = {}; // what tables of other kinds had when they were left
 
   /** Show a table in the fields of an element; they are made anew where what decides which there are has changed. */
   function draw(root, shape, table, make) {
@@ -168,7 +172,9 @@ export function createForm(change, rested, taken = () => {}) {
       put(table, [...path, "kind"], kind);
       const now = at(table, path);
       for (const one of Object.keys(now)) if (one !== "kind") delete now[one];
+      left[[...path, before.kind]] = before;
       for (const { name: one, needed, example } of kinds[kind]) if (needed) now[one] = structuredClone(example);
+      Object.assign(now, structuredClone(left[[...path, kind]]));
       taken(table, path, before);
     }));
     also((table) => {

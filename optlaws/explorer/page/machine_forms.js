@@ -224,8 +224,10 @@ export function createProgramme(root, study, held, entries) {
   function show(state) {
     const tables = tablesOf(state);
     const { cycle, axis } = tables;
-    if (axis) form.draw(root, [state.axis, axis.name, axis.segment?.length, "period" in cycle, "mechanism" in axis], tables, () => fields(cycle, axis));
+    if (axis) form.draw(root, [state.axis, axis.name, axis.segment?.length, "period" in cycle, "mechanism" in axis, turns(axis)], tables, () => fields(cycle, axis));
   }
+
+  const turns = ({ segment = [] }) => segment.some(({ by }) => /deg|rad/.test(by));
 
   function tablesOf(state) {
     const cycle = held(state);
@@ -260,7 +262,9 @@ export function createProgramme(root, study, held, entries) {
     const limits = entries.limits[axis.mechanism ? "machine" : "motion"].map((one) => form.field({ ...one, path: ["axis", "limits", one.name] }, `limit ${one.name}`));
     const segments = (axis.segment ?? []).map((_, i, { length }) => segment(i, length));
     const add = button("+ segment", () => change("add segment", ({ axis: { segment } }) => segment.push({ ...FRESH })));
-    return [group("Cycle", ...head), group("At most", ...limits), group("Segments", ...segments, add)];
+    // a mechanism has its drive in a form of its own, a cam among its forces
+    const drive = axis.mechanism || cycle.motion ? [] : [group("What is moved", ...form.fields(entries.drive[turns(axis) ? "angle" : "length"], ["axis", "drive"], ["axis"]))];
+    return [group("Cycle", ...head), group("At most", ...limits), group("Segments", ...segments, add), ...drive];
   }
 
   function segment(i, count) {

@@ -107,7 +107,7 @@ async function open() {
   };
   const named = (now) => (Object.hasOwn(VIEWS, now.view) ? now.view : "laws");
   const titles = Object.fromEntries(Object.entries(VIEWS).map(([name, { title }]) => [name, title]));
-  const choose = tabs(document.getElementById("views"), titles, (key) => study.change("view", (next) => {
+  const choose = tabs(document.getElementById("views"), titles, (key) => study.look((next) => {
     next.view = key;
     begin(next, key);
   }));
@@ -163,8 +163,7 @@ async function open() {
     (await VIEWS.proof.load()).prove(name, text);
     notice("");
     if (study.state.view === "proof") render(study.state);
-    study.change("view", (next) => (next.view = "proof"));
-    study.rest();
+    study.look((next) => (next.view = "proof"));
   }
 
   /** So is the proof of what is shown. */

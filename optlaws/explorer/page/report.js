@@ -54,7 +54,7 @@ export function table(name, headings, rows, { look = () => ({}), line = () => ({
   const shown = (heading, i) => (units[i] ? headed(heading.split(", ")[0], units[i]) : heading);
   const isNumber = (value) => value === null || typeof value === "number" || (typeof value === "object" && !Array.isArray(value) && !(value instanceof Node));
   const right = headings.map((_, j) => (j > 0 && (all || rows.every((row) => isNumber(row[j]))) ? "number" : null));
-  const head = headings.map((heading, j) => html("th", { scope: "col", class: right[j] }, shown(heading, j)));
+  const head = headings.map((heading, j) => (heading === "" ? html("td") : html("th", { scope: "col", class: right[j] }, shown(heading, j))));
   const cell = (value, i, j) => {
     const own = look(i, j);
     if (value instanceof Node) return html("td", own, value);

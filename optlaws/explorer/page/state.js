@@ -130,6 +130,13 @@ export function createStudy(state, changed, kept, examples) {
     show(next);
   }
 
+  /** Look at another part of the state: that is no step. */
+  function look(alter) {
+    const next = structuredClone(state);
+    alter(next);
+    show(next);
+  }
+
   /** Take a step from one list of states to the other. */
   function step(from, to) {
     if (!from.length) return;
@@ -153,6 +160,6 @@ export function createStudy(state, changed, kept, examples) {
 
   return {
     get state() { return state; }, get canUndo() { return past.length > 0; }, get canRedo() { return future.length > 0; },
-    change, keep, rest, undo: () => step(past, future), redo: () => step(future, past),
+    change, look, keep, rest, undo: () => step(past, future), redo: () => step(future, past),
   };
 }

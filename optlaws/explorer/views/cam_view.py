@@ -15,7 +15,6 @@ from optlaws.cams.followers.contact import PRESSURE
 from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.forces import Surfaces
 from optlaws.cams.report import DIGITS, CamReport, forces_section, leaves, named_forces
-from optlaws.cycles.specification.drive import CONSTANTS
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located
 from optlaws.explorer.views.cycle_view import SEGMENTS, CycleRequest
 from optlaws.explorer.views.law_view import refusing
@@ -164,7 +163,6 @@ def form() -> dict[str, Any]:
     return {
         **CamProblemFile.form(),
         "axes": {name: kind.axis for name, kind in CamFollower.kinds().items()},
-        "drive": {axis: table.form()["entries"] for axis, table in CONSTANTS.items()},
     }
 
 

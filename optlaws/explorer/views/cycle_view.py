@@ -16,6 +16,7 @@ from optlaws.cycles.axes.interlock import Interlock
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.placed import broken_limits
 from optlaws.cycles.report import CycleReport, drive_rows, joint_rows, objective_unit, proof_rows
+from optlaws.cycles.specification.drive import CONSTANTS
 from optlaws.cycles.specification.limits import LIMITS, LIMITS_OF_CYCLE
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.entries.declared import entries_of
@@ -183,11 +184,12 @@ SEGMENTS = [
 
 
 def form() -> dict[str, Any]:
-    """What the form of a cycle shows: objectives, limits of motions and of machines that turn, segments, interlocks."""
+    """What the form of a cycle shows: objectives, limits of motions and of machines that turn, drives, segments."""
     kinds = CycleSegment.form()["kinds"]
     return {
         "objectives": entries_of(Cycle)["minimise"].form["choices"],
         "limits": {kind: [LIMITS_OF_CYCLE.entries[name].form for name in names] for kind, names in _LIMITS.items()},
+        "drive": {axis: table.form()["entries"] for axis, table in CONSTANTS.items()},
         "interlocks": Interlock.form()["kinds"],
         "segments": {kind: [each for each in shown if "entries" not in each] for kind, shown in kinds.items()},
     }

@@ -26,13 +26,15 @@ from optlaws.explorer.views.law_view import digits, objective_title
 from optlaws.explorer.views.panel_data import drawn, panel_data
 from optlaws.explorer.views.requests import LawsRequest, problem_of, solved, without
 from optlaws.laws.savin import FAMILIES
-from optlaws.numbers import bounded
+from optlaws.numbers import Array, bounded
 from optlaws.synthesis.proof.infeasible import possible_velocities
 from optlaws.tolerances import BOUND_SLACK
 
 #: least and greatest of each axis that is drawn
 RANGES = {"B": (1.1, 2.5), "C": (3.5, 10.0), "D": (2.0, 11.0), "J": (20.0, 140.0), "rms_c": (3.2, 7.0)}
 _POINTS = 57
+#: the chord of two points leaves the front by no more than this share of the picture, or is halved so often
+_OFF, _HALVED = 1e-3, 3
 #: sums with D in them are solved one by one
 _POINTS_ALONE = 25
 _LONGEST = 80
@@ -67,11 +69,14 @@ def front(problem: Problem, x: str, y: str) -> dict[str, Any]:
     if span is None:
         return {"words": f"no {x} has a law of this problem"}
     alone = not problem.convex and problem.minimise != "D"
-    values: Any = np.linspace(*span, _POINTS_ALONE if alone else _POINTS)
-    entries = {each.name: getattr(problem, each.name) for each in fields(problem)}
-    laws = synthesize_array(ProblemArray(**entries | {x: values if x == "B" else map_arrays(at_most, values)}))
-    # a law whose bound of x does not bind stands where its own x is
-    line = Front((x, y), tuple(law for law in map(laws.result, range(laws.size)) if isinstance(law, Solution)))
+    line = _laws(problem, (x, y), np.linspace(*span, _POINTS_ALONE if alone else _POINTS))
+    for _ in range(_HALVED if problem.convex else 0):
+        middles = _coarse(line.values, (RANGES[y][1] - RANGES[y][0]) * _OFF)
+        if not middles.size:
+            break
+        points = (*line, *_laws(problem, (x, y), middles))
+        order = np.argsort(Front((x, y), points).values[:, 0], kind="stable")
+        line = Front((x, y), tuple(points[i] for i in order))
     report = line.report()
     quality = report.facts[-1]
     proven = all(law.status is Status.OPTIMAL for law in line)
@@ -82,6 +87,24 @@ def front(problem: Problem, x: str, y: str) -> dict[str, Any]:
     at = "at each B" if x == "B" else f"for each bound of {x}"
     words = f"least {objective_title(problem)} {at}: {quality.note}"
     return {"series": panel_data(report.panels[0])["series"], "words": words, "proven": proven}
+
+
+def _laws(problem: Problem, over: tuple[str, str], values: Array) -> Front:
+    """The optimal laws for values of the first constant; one whose bound does not bind stands where its own is."""
+    entries = {each.name: getattr(problem, each.name) for each in fields(problem)}
+    swept: Any = values if over[0] == "B" else map_arrays(at_most, values)
+    laws = synthesize_array(ProblemArray(**entries | {over[0]: swept}))
+    return Front(over, tuple(law for law in map(laws.result, range(laws.size)) if isinstance(law, Solution)))
+
+
+def _coarse(line: Array, allowed: float) -> Array:
+    """The middles between points of a line whose chord leaves the curve by more than is allowed, by the bends there."""
+    at, values = line.T
+    share = (at[1:-1] - at[:-2]) / np.maximum(at[2:] - at[:-2], np.finfo(float).tiny)
+    bends = np.abs(values[1:-1] - values[:-2] - share * (values[2:] - values[:-2])) / 4.0
+    rough = np.concatenate([[False], bends > allowed, [False]])
+    middles: Array = (0.5 * (at[:-1] + at[1:]))[rough[:-1] | rough[1:]]
+    return middles
 
 
 def _span(problem: Problem, x: str) -> tuple[float, float] | None:

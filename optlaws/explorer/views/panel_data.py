@@ -41,7 +41,7 @@ def fact_sentences(facts: Iterable[Row], digits: int = 6) -> list[Sentence]:
         known = [end if isinstance(end, str) else Amount(end, row.unit, digits) for end in ends if end is not None]
         between = ": " if isinstance(row.value, str) else " " if known else ""
         place = "" if row.place is None else sentence(" at {}", Amount(round(row.place, _DRAWN) + 0.0, "deg", 5))
-        note = f": {row.note}" if row.note else ""
+        note = sentence(": {}", row.note) if row.note else ""
         sentences.append(sentence("{}{}{}{}{}", row.name, between, joined(" to ", dict.fromkeys(known)), place, note))
     return sentences
 

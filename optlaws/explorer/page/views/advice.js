@@ -7,7 +7,7 @@ import { Latest, unanswered } from "../latest.js";
 import { spanOf } from "../layers.js";
 import { column, fragment, group, growing, laidOut, panel, part, picture, status, swatch } from "../layout.js";
 import { createPanels } from "../panels.js";
-import { marked, table } from "../report.js";
+import { marked, showTrust, table } from "../report.js";
 import { button, html, renew } from "../svg.js";
 import { headed, number, shownUnit, written } from "../units.js";
 
@@ -110,9 +110,12 @@ export function createView(root, study) {
 
   function draw(error = null) {
     const answer = advice;
-    marked(at.words, answer.refused ? written(answer.refused.reason) : "");
-    at.words.classList.toggle("none", Boolean(answer.refused));
-    renew(at.words, ...(answer.refused ? refusal(answer.refused) : [...(answer.chosen ? words(answer) : []), ...progress(error)]));
+    if (answer.refused) showTrust(at.words, answer);
+    else {
+      marked(at.words, "");
+      at.words.classList.remove("none");
+      renew(at.words, ...(answer.chosen ? words(answer) : []), ...progress(error));
+    }
     renew(at.table, ...(answer.refused ? [] : [lawsTable(answer), ...(answer.remarks ?? []).map((text) => html("p", { class: "quiet", translate: "no", text }))]));
     chart.show(answer.refused ? null : pictured(answer));
     curves.show(answer.refused ? answer : answer.curves);
@@ -179,10 +182,6 @@ export function createView(root, study) {
   }
 
   return { files, drawings: "#advice-side svg", show, request, form };
-}
-
-function refusal({ word: title, reason, tried }) {
-  return [html("p", { class: "reason", title: tried }, html("strong", { class: "word refused", text: title }), ` ${written(reason)}`)];
 }
 
 /** The laws, the front and what is proven, in the plane of two measures. */

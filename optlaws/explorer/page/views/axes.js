@@ -27,7 +27,7 @@ export function createView(root, study) {
     column("axes-middle", "Timing diagram and positions", status("axes-trust"),
       html("div", { class: "panel" }, part("axes-timing"), part("axes-run"), html("p", { class: "facts", id: "axes-reading" })),
       growing(head(html("span", { class: "quiet", text: "positions" }), html("select", { id: "axes-choice", "aria-label": "plane of two positions" })), picture("axes-plane"))),
-    column("axes-right", "Clearances", panel("axes-rooms"), panel("axes-table", { class: "panel scrolled" })),
+    column("axes-right", "Clearances", panel("axes-rooms"), panel("axes-table", { class: "panel scrolled", tabindex: "0", role: "group", "aria-label": "Clearances and peaks" })),
   );
   const { timing, run, plane, choice: planes, rooms } = elements;
   const form = html("div");

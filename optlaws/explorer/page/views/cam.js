@@ -83,13 +83,13 @@ export function createView(root, study, { cam, programme }) {
   }
 
   function fields(axis) {
-    const { entries, drive } = kinds;
+    const { entries } = kinds;
     const [follower, forces, spring] = TABLES.map((name) => named(entries, name));
     const sizes = entries.filter(({ name }) => !ELSEWHERE.includes(name) && !TABLES.includes(name));
     return [
       group("Follower", ...form.fields([follower])),
       group("Cam", ...form.fields(sizes)),
-      group("Forces", ...form.fields(drive[axis], ["motion", "drive"]), ...form.fields(forces.entries, ["forces"])),
+      group("Forces", ...form.fields(programme.drive[axis], ["motion", "drive"]), ...form.fields(forces.entries, ["forces"])),
       group("Spring", ...form.fields([spring])),
     ];
   }
@@ -98,7 +98,7 @@ export function createView(root, study, { cam, programme }) {
   function take(cam, before) {
     const axis = kinds.axes[cam.follower.kind];
     if (axis === kinds.axes[before?.kind]) return;
-    for (const segment of cam.motion.segment) if (segment.by) segment.by = axis === "angle" ? "20 deg" : "35 mm";
+    for (const segment of cam.motion.segment) if (segment.by) segment.by = axis === "angle" ? "12 deg" : "35 mm";
     for (const name of ["limits", "drive"]) delete cam.motion[name];
     for (const name of ["forces", "spring"]) delete cam[name];
   }
