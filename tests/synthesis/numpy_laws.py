@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from math import sqrt
 from typing import Any
@@ -53,18 +54,28 @@ class Laws:
         return found
 
     def ratio(self, order: int) -> list[Array]:
-        """B divided by what vanishes at ends where laws rest: it has the sign of b, and is not tiny there."""
+        """The velocity divided by what vanishes where laws rest: it has the sign of b, and is not tiny at the ends."""
         found = []
         for low, high, one in zip(self.breaks, self.breaks[1:], self.derivative(1), strict=False):
             # (x + 1)/2 is k at the start of its piece, (1 - x)/2 is 1 - k
             divisor: Any = np.ones(1)
             for _ in range(order - 1):
-                divisor = chebyshev.chebmul(divisor, [0.5, 0.5]) if low == 0.0 else divisor
-                divisor = chebyshev.chebmul(divisor, [0.5, -0.5]) if high == 1.0 else divisor
-            divided = [chebyshev.chebdiv(column, divisor)[0] for column in one.T]
-            size = max(2, *map(len, divided))
-            found.append(np.column_stack([np.pad(column, (0, size - len(column))) for column in divided]))
+                divisor = chebyshev.chebmul(divisor, [1.0, 1.0]) if low == 0.0 else divisor
+                divisor = chebyshev.chebmul(divisor, [1.0, -1.0]) if high == 1.0 else divisor
+            found.append(_divided(one, divisor))
         return found
+
+    def chord(self, place: float) -> tuple[list[Array], float, float]:
+        """(b(place) - b) / (2 (k - place))², right where c(place) = 0, on pieces about the place, and their ends."""
+        found, touching = [], []
+        for low, high, one in zip(self.breaks, self.breaks[1:], self.derivative(1), strict=False):
+            x, length = (2.0 * place - low - high) / (high - low), high - low
+            gap = -one
+            gap[0] += chebyshev.chebval(x, one)
+            touches = low <= place <= high
+            found.append(_divided(gap, chebyshev.chebpow([-x * length, length], 2)) if touches else 0.0 * one)
+            touching += [low, high] if touches else []
+        return found, min(touching), max(touching)
 
     def row(self, nu: int, k: float) -> Array:
         piece = min(int(np.searchsorted(self.breaks, k, side="right")), len(self.columns)) - 1
@@ -84,6 +95,7 @@ class Laws:
         return np.vstack(found)
 
 
+@lru_cache(maxsize=64)
 def laws_of(problem: Problem) -> Laws:
     """All laws of a problem, its ends and its basis kept; mixed so that accelerations are orthogonal."""
     basis = problem.basis
@@ -97,6 +109,13 @@ def laws_of(problem: Problem) -> Laws:
 
 def grid(low: float, high: float, count: int) -> Array:
     return (low + high) / 2.0 - (high - low) / 2.0 * np.cos(np.linspace(0.0, np.pi, count))
+
+
+def _divided(columns: Array, divisor: Any) -> Array:
+    """Series divided by one; at least two rows, so that a slope can be taken."""
+    divided = [chebyshev.chebdiv(column, divisor)[0] for column in columns.T]
+    size = max(2, *map(len, divided))
+    return np.column_stack([np.pad(column, (0, size - len(column))) for column in divided])
 
 
 def _ends(problem: Problem) -> list[list[float]]:

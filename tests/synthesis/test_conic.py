@@ -7,7 +7,6 @@ import pytest
 from optlaws import (
     Bernstein,
     BoundaryConditions,
-    Chebyshev,
     InfeasibleProblem,
     Problem,
     Solution,
@@ -16,11 +15,10 @@ from optlaws import (
     synthesize,
     via,
 )
-from tests.synthesis import reference
-from tests.synthesis.conic import least
 from tests.synthesis.judge import broken, lower_bounded
 from tests.synthesis.numpy_laws import Undecided
 from tests.synthesis.random_options import every_option, every_unit
+from tests.synthesis.reference import least
 
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 
@@ -41,7 +39,7 @@ def agree(problem: Problem, solution: Solution, expected: float) -> bool:
 
 def verdict(problem: Problem) -> str:
     try:
-        expected = least(problem)
+        expected = least(problem, rounds=25, tolerance=1e-6)
     except Undecided:
         return "undecided"
     try:
@@ -79,14 +77,6 @@ def test_clarabel_finds_the_same_optima_of_a_few_problems_of_every_kind() -> Non
 def test_clarabel_finds_the_same_optima(seed: int) -> None:
     counter = Counter(verdict(problem) for problem in convex_problems(seed, 100))
     assert counter["undecided"] <= 0.1 * counter.total()
-
-
-@pytest.mark.sample(4)
-@pytest.mark.parametrize("minimise", ["C", "J", "C_plus", "max(C/4, J/32)"])
-def test_both_references_agree(minimise: str) -> None:
-    for symmetric in (True, False):
-        problem = Problem(B=1.7, order=3, basis=Chebyshev(8), minimise=minimise, symmetric=symmetric)
-        assert least(problem) == pytest.approx(reference.least(problem), rel=1e-5)
 
 
 #: the 103rd problem that is drawn with the seed 21, with fewer digits

@@ -12,8 +12,9 @@ from optlaws import Certificate, Chebyshev, InfeasibleProblem, Problem, SolverFa
 from optlaws.synthesis import PolynomialBasis
 from tests.sampling import sampled
 from tests.synthesis.judge import Judged, judge, lower_bounded
+from tests.synthesis.numpy_laws import Undecided
 from tests.synthesis.random_general import random_problems
-from tests.synthesis.reference import Undecided, least
+from tests.synthesis.reference import least
 
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 PROBLEMS = random_problems(7, 300)

@@ -91,7 +91,9 @@ def test_highs_or_clarabel_finds_the_same_optimum_among_all_laws_of_eq_8(given: 
     solution = synthesize(asked)
     judge(solution)
     assert solution.status.value == "optimal"
-    assert solution.objective == pytest.approx(least(asked), rel=rel)
+    # one side's peak of a symmetric law is the other's, of unsymmetric laws it is less
+    both_sides = not {"C_plus", "C_minus"}.intersection(str(asked.minimise).split())
+    assert solution.objective == pytest.approx(least(asked, of_unsymmetric_laws=both_sides), rel=rel)
 
 
 @pytest.mark.sample(4)
