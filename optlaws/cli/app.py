@@ -92,7 +92,7 @@ class Stopped(NotProven):
 
 
 class PartlyChecked(NotProven):
-    """Nothing of a file is false, and some of it was only computed again in doubles; the message names that."""
+    """Nothing of a file is false, and some of it could not be checked; the message says how much."""
 
     code = PARTLY_CHECKED
 

@@ -10,7 +10,14 @@ import numpy as np
 
 from optlaws.cycles.optimisation.objectives import SUMS, check_objective, kind_of
 from optlaws.cycles.optimisation.optimal import remark_on_degrees, search_space
-from optlaws.cycles.optimisation.span_values import BOUND_ROUNDING, along, bound_of, is_exact, total
+from optlaws.cycles.optimisation.span_values import (
+    BOUND_ROUNDING,
+    along,
+    bound_of,
+    is_certified,
+    is_exact,
+    total,
+)
 from optlaws.cycles.placed import SegmentPeaks, limits_taken, segments_in_place
 from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, LimitTaken
 from optlaws.cycles.specification.programme import LawSpan, Programme
@@ -39,6 +46,8 @@ if TYPE_CHECKING:
 #: what a picture of a cycle is over
 PlotOver = Literal["time", "speed"]
 T = TypeVar("T")
+#: names of lower bounds, which a verification proves with every rounding enclosed or computes again in doubles
+PROVEN_BOUND, BOUND_IN_DOUBLES = "proven lower bound", "lower bound in doubles"
 _STRICTER = (
     "The gear has losses and carries a load. Where the motor brakes, the search counts the torque as if all power "
     "flowed back through the gear, which is never less than the torque itself. The lower bound is proven without this, "
@@ -84,7 +93,8 @@ class Answers(Exportable):
             return Status.INFEASIBLE
         worst = Status.worst(solution.status for solution in self.solutions)
         bound = self._bound
-        if self.solutions and worst == Status.OPTIMAL and bound is not None:
+        # a law that is given, or one of another span, may decide what a law that is local does not
+        if self.solutions and worst in {Status.OPTIMAL, Status.LOCAL} and bound is not None:
             return Status.OPTIMAL if self.objective <= bound * (1.0 + CYCLE_OPTIMALITY) else Status.LOCAL
         return worst
 
@@ -150,6 +160,18 @@ class Answers(Exportable):
             return None
         nothing = kind is not Kind.ENERGY and bound <= BOUND_ROUNDING * self.objective
         return None if nothing and self.objective > 0.0 else bound
+
+    @answer
+    def lower_bound_name(self) -> str:
+        """What its lower bound is called: proven where the certificates of its laws alone prove it.
+
+        Others, of laws that share a limit or of drives whose friction no law determines, are computed in doubles from
+        more than these; `optlaws verify` uses the same words.
+        """
+        plan, cycle = self.solve(), self.solve().specification
+        laws = tuple((piece, solution) for _, piece, solution in plan.laws)
+        alone = plan.bound is None and not cycle.in_si.shares and is_certified(cycle.layout, laws, cycle.in_si)
+        return PROVEN_BOUND if alone else BOUND_IN_DOUBLES
 
     @answer
     def _bound(self) -> float | None:

@@ -23,6 +23,8 @@ from optlaws.motion.quantities import TURN, quantity
 from optlaws.numbers import NumberOrQuantity
 from optlaws.spelling import either_spelling
 from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.spaces.bases import Basis, Pieces
+from optlaws.synthesis.spaces.periodic_pieces import PeriodicPieces
 from optlaws.tolerances import CYCLE_OPTIMALITY
 
 if TYPE_CHECKING:
@@ -351,7 +353,13 @@ class Plan(Solved, CycleAnswers, Declared, title="a plan"):
     def of_its_problems(self) -> bool:
         """Whether its solutions are of the problems of its cycle, so that their bounds are bounds of the cycle."""
         cycle = self.specification
-        return all(solution.problem == span_problem(span, cycle.in_si) for span, _, solution in self.laws)
+        for span, _, solution in self.laws:
+            known, basis = span_problem(span, cycle.in_si), solution.problem.basis
+            if _refines(basis, known.basis):
+                known = replace(known, basis=basis)
+            if solution.problem != known:
+                return False
+        return True
 
     def with_solutions(self, solutions: Sequence[Solution]) -> Plan:
         """The plan of the same cycle with other solutions, as `Cycle.with_solutions`."""
@@ -365,3 +373,16 @@ class Plan(Solved, CycleAnswers, Declared, title="a plan"):
 
     def __repr__(self) -> str:
         return f"Plan({self.specification!r}, status={self.status.value!r})"
+
+
+def _refines(basis: Basis, known: Basis) -> bool:
+    """Whether a basis has the pieces of another one, cut into more: no law of this one is below the bound of it."""
+    if not isinstance(basis, Pieces) or not isinstance(known, Pieces) or type(basis) is not type(known):
+        return False
+    alike = (basis.degree, basis.continuity, _straight(basis)) == (known.degree, known.continuity, _straight(known))
+    return alike and set(known.breaks) <= set(basis.breaks)
+
+
+def _straight(basis: Pieces) -> set[tuple[float, ...]]:
+    """The ends of straight pieces."""
+    return {basis.breaks[i : i + 2] for i in basis.straight} if isinstance(basis, PeriodicPieces) else set()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from optlaws.cycles.answers import Answers
+from optlaws.cycles.answers import PROVEN_BOUND, Answers
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
 from optlaws.cycles.placed import Place, limit_rows, overloads
 from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, LimitTaken
@@ -383,8 +383,8 @@ def proof_rows(plan: Solved) -> list[Row]:
     unit = objective_unit(plan)
     rows = [Row("status", plan.status.value), Row(f"least {plan.minimise}", plan.objective, unit)]
     bound = plan.lower_bound
-    none = Row("proven lower bound", "none is known")
-    rows.append(none if bound is None else Row("proven lower bound", bound, unit))
+    none = Row(PROVEN_BOUND, "none is known")
+    rows.append(none if bound is None else Row(plan.lower_bound_name, bound, unit))
     return [*rows, Row("search space", plan.search_space), *(Row("remark", remark) for remark in plan.remarks)]
 
 

@@ -11,6 +11,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.report import CycleReport, FastestReport, motion_table
+from optlaws.cycles.specification.programme import is_optimal
+from optlaws.cycles.specification.segments import Dwell
+from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.text import variable_names
@@ -86,6 +89,8 @@ def run(results: Results) -> None:
         step(f"axis {name}")
         results.table(plain_name(name), *CycleReport(cycle).motion(spec.rows), of=f"axis {name}: its table")
         _add_axis(page, f"{spec.title}: {name}", name, cycle, fastest.get(name), drawn)
+        if len(cycles) > 1:
+            page.text(_laws_of(name, cycle, overlap))
         if exports[name]:
             page.text(_RUN).table(_EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()])
     for transition in transitions:
@@ -173,6 +178,22 @@ def _add_interlocks(page: Page, title: str, axes: Axes, overlap: Overlap | None)
             lambda: figure_of(axes.plot(what="clearance"), title),
         )
         page.text(_INTERLOCKS).table(*axes.report().tables[0])
+
+
+def _laws_of(name: str, cycle: Cycle, overlap: Overlap | None) -> str:
+    """A sentence on the law of each move of an axis, with the laws among which it was looked for."""
+    begun = cycle if overlap is None else overlap.given[name]
+    sought = f"the best of {begun.search_space}"
+    if overlap is not None and (overlap.goal == "period" or name in overlap.of):
+        way = "fastest" if overlap.goal == "period" else "one of least acceleration"
+        sought = f"the {way} of the laws of order {begun.order} with Z of degree {begun.degree}, in each time"
+    laws = [
+        (each.label, sought if is_optimal(each) else getattr(each, "law", "constant velocity"))
+        for each in begun.segments
+        if not isinstance(each, Dwell)
+    ]
+    moves = [f"{move}: {law if isinstance(law, str) else shortened(law)}" for move, law in laws]
+    return f"Laws: {'; '.join(moves)}." if moves else ""
 
 
 def _add_axis(

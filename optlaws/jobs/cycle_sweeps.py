@@ -9,6 +9,7 @@ from math import inf, isnan, nan
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from optlaws.cycles.answers import BOUND_IN_DOUBLES, PROVEN_BOUND
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.report import objective_unit
 from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES
@@ -74,14 +75,27 @@ class Sweep(NamedTuple):
         added = ", ".join(row.name for row in self.rows if row.value not in given)
         between = f" Added between the values that are given: {added}." if added else ""
         at_end = best in (self.rows[0], self.rows[-1]) and not self.stopped and not isnan(_number(best.value)[0])
-        beyond = " It is the last of the values: values outside the range may give less." if at_end else ""
+        beyond = f" {self._beyond(best)}" if at_end else ""
         return f"{stop}The {_with_unit(best.cycle)}, is at {entry} = {best.name}.{between}{beyond}"
+
+    def _beyond(self, best: SweptCycle) -> str:
+        """That the best value is at the edge of the sweep, and how to widen it: by the ratio of the last two values."""
+        last = self.rows[:2] if best is self.rows[0] else self.rows[:-3:-1]
+        (edge, unit), (inner, _) = (_number(row.value) for row in last)
+        further = edge**2 / inner if edge * inner > 0.0 else 2.0 * edge - inner
+        value = f"{further:.{_DIGITS}g}"
+        shown = f'"{value}{unit}"' if unit else value
+        where = "least" if edge < inner else "greatest"
+        return (
+            f"It is the {where} of the values, at the edge of the sweep: less may lie beyond. Widen the sweep: add "
+            f"{shown} to its values."
+        )
 
     @property
     def table(self) -> ReportTable:
         """The objective with its bound, what drive and motor need, or why there is none, for each value."""
         cycles = [row.cycle for row in self.rows if row.cycle is not None]
-        columns = _columns(cycles[0]) if cycles else {}
+        columns = _columns(cycles) if cycles else {}
         reasons = ["reason"] if any(row.reason for row in self.rows) else []
         cells: list[list[Cell]] = [
             [
@@ -228,12 +242,13 @@ def _with_unit(cycle: Cycle) -> str:
     return f"{_least(cycle)} found, {cycle.objective:.6g} {objective_unit(cycle)}"
 
 
-def _columns(cycle: Cycle) -> dict[str, Callable[[Cycle], Cell]]:
-    """Table columns for cycles of this kind, by their headings."""
-    columns: dict[str, Callable[[Cycle], Cell]] = {}
+def _columns(cycles: Sequence[Cycle]) -> dict[str, Callable[[Cycle], Cell]]:
+    """Table columns for cycles of one kind, by their headings; bounds are called proven where all are."""
+    cycle, columns = cycles[0], dict[str, Callable[[Cycle], Cell]]()
     if cycle.solutions:
         columns[f"{_least(cycle)}, {objective_unit(cycle)}"] = lambda each: each.objective
-        columns["proven lower bound"] = lambda each: each.lower_bound or None
+        names = {each.lower_bound_name for each in cycles}
+        columns[PROVEN_BOUND if names == {PROVEN_BOUND} else BOUND_IN_DOUBLES] = lambda each: each.lower_bound or None
     if cycle.drive is not None:
         force, unit = FORCES[cycle.axis], FORCE_UNITS[cycle.axis]
         minimised = cycle.minimise if cycle.solutions else None

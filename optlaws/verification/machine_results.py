@@ -28,6 +28,7 @@ from optlaws.verification.result import (
     differences,
     every_claim,
     near,
+    recomputed,
     with_claims,
 )
 from optlaws.verification.stated_solutions import solution
@@ -52,7 +53,7 @@ def cam(data: Data) -> Verification:
         }
         wrong = result.plan.contradiction()
         detail = wrong or f"they meet its joints and keep its limits, in doubles; status {result.plan.status.value}"
-        claims = [Claim("the laws of the motion", proven=False, detail=detail, checked=bool(wrong))]
+        claims = [recomputed("the laws of the motion", detail, wrong)]
         for name in getattr(result, "of_laws", ()):  # a barrel states none
             if name == "laws" or result.minimises_over_cycle:
                 weaker = "" if result.bounds_hold else _CURVED if result.minimises_over_cycle else _FURTHER
@@ -110,7 +111,7 @@ def of_cycle(
         numbers = list(_numbers(stated, solved.report().stored, proven))
     every = [claim for place, each in known.items() for claim in every_claim(each, f"{place}: ")]
     name = "the laws of the cycle"
-    claim = _unread(name, unread, known) if unread else Claim(name, proven=False, detail=detail, checked=bool(wrong))
+    claim = _unread(name, unread, known) if unread else recomputed(name, detail, wrong)
     return with_claims(Verification(), [*every, claim, *numbers])
 
 
@@ -121,7 +122,6 @@ def _unread(name: str, error: OptlawsError, known: Mapping[str, Verification]) -
     return Claim(name, proven=False, detail=detail, checked=not false)
 
 
-_SHARED = "which laws that share a limit or were selected among equals do not prove alone"
 _OTHERWISE = "which is computed again in doubles, from more than the certificates of its laws"
 #: why bounds of laws are none of the cycle's
 _CURVED = "of laws under limits of the cam that are not linear in them"
@@ -159,11 +159,28 @@ def _objective_of_laws(plan: Any, known: Sequence[Verification], stated: Data, w
         return
     bound = number(stated, "lower_bound")
     claim = at_most("lower_bound", bound, proven, 0.0)
-    why = weaker or ("" if plan.bound is None else _SHARED) or ("" if proven and objective.kind.order else _OTHERWISE)
+    if plan.bound is not None and not claim.proven:
+        yield _sought_again(plan, bound)
+        return
+    why = weaker or ("" if proven and objective.kind.order else _OTHERWISE)
     if why and not claim.proven:
         above = plan.objective * (1.0 + STORED_VALUE) < bound
-        claim = Claim("lower_bound", proven=False, detail=f"{bound!r} stated, {why}", checked=above)
+        detail = f"{bound!r} stated, {why}"
+        # of what is computed again, a bound that differs has a claim among the numbers
+        again = why is _OTHERWISE and not above
+        claim = Claim("lower_bound", proven=False, detail=detail, checked=above, recomputed=again)
     yield claim
+
+
+def _sought_again(plan: Any, bound: float) -> Claim:
+    """The claim of a bound of laws that share a limit or were selected, which no certificate of one of them proves."""
+    try:
+        second = plan.specification.solve().lower_bound
+    except OptlawsError as error:
+        return Claim("lower_bound", proven=False, detail=str(error), checked=False)
+    detail = f"{bound!r} stated, {second!r} by the same search in doubles, whose multipliers leave no certificate"
+    agrees = second is not None and bound <= second * (1.0 + STORED_VALUE)
+    return recomputed("lower_bound", detail, "" if agrees else detail)
 
 
 def _total(shares: Sequence[_Share], period: float, objective: Any, end: int | None, side: float) -> float:
@@ -254,9 +271,7 @@ def _numbers(stated: Data, known: Data, apart: Sequence[Claim] = ()) -> Iterator
     named = {claim.name for claim in apart}
     names = ", ".join(name for name, value in stated.items() if value is not None and name not in named)
     if names and not wrong:
-        yield Claim(
-            "the numbers", proven=False, detail=f"computed again in doubles, they agree: {names}", checked=False
-        )
+        yield recomputed("the numbers", f"computed again in doubles, they agree: {names}")
 
 
 def _by_name(stated: Data, known: Data) -> tuple[Data, Data]:
@@ -316,7 +331,7 @@ def overlap_of_axes(data: Data) -> Verification:
 def _overlap_claims(overlap: Any) -> Iterator[Claim]:
     wrong = built(lambda stated: stated.contradiction(), overlap, "the axes that overlap")
     detail = wrong or f"{overlap.objective!r} stated, which its axes have within their limits, in doubles"
-    yield Claim(f"the {overlap.goal}", proven=False, detail=detail, checked=bool(wrong))
+    yield recomputed(f"the {overlap.goal}", detail, wrong)
     if not wrong:
         yield from (*_interlocks(overlap.axes), _bound(overlap), _binding(overlap))
 
@@ -339,7 +354,7 @@ def _bound(overlap: Any) -> Claim:
     detail = f"{overlap.lower_bound!r} stated, {second}"
     low = overlap.lower_bound <= again.lower_bound * (1.0 + STORED_VALUE)
     agrees = low and overlap.objective >= again.lower_bound * (1.0 - STORED_VALUE)
-    return Claim(name, proven=False, detail=detail, checked=not agrees)
+    return recomputed(name, detail, "" if agrees else detail)
 
 
 def _binding(overlap: Any) -> Claim:
@@ -354,4 +369,4 @@ def _binding(overlap: Any) -> Claim:
         return Claim(name, proven=False, detail=str(error))
     detail = f"{', '.join(overlap.binding)} stated; {', '.join(sorted(hardly))} by the instants, in doubles"
     agrees = surely <= stated <= hardly and len(stated) == len(overlap.binding)
-    return Claim(name, proven=False, detail=detail, checked=not agrees)
+    return recomputed(name, detail, "" if agrees else detail)

@@ -25,8 +25,10 @@ class Claim:
     Attributes
     ----------
     checked
-        Whether it was checked with every rounding enclosed; if not, it was computed again in doubles and agrees, so
-        that nothing of it is proven or refuted.
+        Whether it was checked with every rounding enclosed; if not, nothing of it is proven or refuted.
+    recomputed
+        Whether, not being checked so, it was computed again in doubles and agrees within the tolerance of stored
+        numbers.
 
     Examples
     --------
@@ -38,11 +40,22 @@ class Claim:
     proven: bool
     detail: str
     checked: bool = True
+    recomputed: bool = False
 
     def __str__(self) -> str:
-        word = "proven" if self.proven else "not proven" if self.checked else "not checked"
+        word = "proven" if self.proven else "recomputed" if self.recomputed else "not checked"
+        word = "not proven" if self.checked and not self.proven else word
         name = self.name if len(self.name) <= _LONGEST_NAME else f"{self.name[: _LONGEST_NAME - 4]} ..."
         return f"{word:<12}{name}: {self.detail}"
+
+
+def recomputed(name: str, detail: str, wrong: str = "") -> Claim:
+    """The claim of what doubles alone compute again; what is `wrong` with it, where they contradict it.
+
+    >>> print(recomputed("the period", "0.6 s"))
+    recomputed  the period: 0.6 s
+    """
+    return Claim(name, proven=False, detail=wrong or detail, checked=bool(wrong), recomputed=not wrong)
 
 
 Data: TypeAlias = Mapping[str, Any]
@@ -82,8 +95,10 @@ class Verification:
         What the bound lost to moments that had to be charged; mostly 0.
     claims
         Everything that was checked, and is proven or not.
+    recomputed
+        What was computed again in doubles, and agrees.
     unchecked
-        What was only computed again in doubles, and agrees.
+        What could not be checked.
 
     Examples
     --------
@@ -103,6 +118,7 @@ class Verification:
     excesses: dict[str, float] = field(default_factory=dict)
     charge: float = 0.0
     claims: tuple[Claim, ...] = ()
+    recomputed: tuple[Claim, ...] = ()
     unchecked: tuple[Claim, ...] = ()
 
     @property
@@ -122,7 +138,10 @@ class Verification:
             "excesses": {name: bounded(by) for name, by in self.excesses.items()},
             "charge": self.charge,
             "claims": [{name: getattr(claim, name) for name in ("name", "proven", "detail")} for claim in self.claims],
-            "unchecked": [{"name": claim.name, "detail": claim.detail} for claim in self.unchecked],
+            **{
+                name: [{"name": claim.name, "detail": claim.detail} for claim in getattr(self, name)]
+                for name in ("recomputed", "unchecked")
+            },
             "problem": None if self.problem is None else self.problem.to_dict(),
         }
 
@@ -137,7 +156,7 @@ class Verification:
         if self.gap is not None:
             lines.append(f"gap          at most {self.gap:.2e}")
         lines += [f"{name:<12} in [{low!r}, {high!r}]" for name, (low, high) in self.constants.items()]
-        return "\n".join([*lines, *map(str, (*self.claims, *self.unchecked))])
+        return "\n".join([*lines, *map(str, every_claim(self))])
 
 
 def compare(stated: Any, proven: Proven, name: str) -> Iterator[Claim]:
@@ -213,14 +232,17 @@ def at_most(name: str, stated: float, proven: Fraction | None, scale: float, sou
 
 def every_claim(verification: Verification, place: str = "") -> list[Claim]:
     """All claims, whether checked or not; of a part their names begin with its place."""
-    return [replace(claim, name=place + claim.name) for claim in (*verification.claims, *verification.unchecked)]
+    every = (*verification.claims, *verification.recomputed, *verification.unchecked)
+    return [replace(claim, name=place + claim.name) for claim in every]
 
 
 def with_claims(known: Verification, claims: Iterable[Claim]) -> Verification:
-    """A verification with claims, those that are checked and those that are not, in place of its own."""
+    """A verification with claims in place of its own: checked, recomputed in doubles, or neither."""
     every = tuple(claims)
-    checked, unchecked = (tuple(claim for claim in every if claim.checked is kind) for kind in (True, False))
-    return replace(known, claims=checked, unchecked=unchecked)
+    checked = tuple(claim for claim in every if claim.checked)
+    again = tuple(claim for claim in every if claim.recomputed)
+    left = tuple(claim for claim in every if not claim.checked and not claim.recomputed)
+    return replace(known, claims=checked, recomputed=again, unchecked=left)
 
 
 def _pair(pair: tuple[float, float]) -> list[float | None]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from math import inf
@@ -44,6 +43,7 @@ from optlaws.verification.result import (
     compare,
     near,
     of_number,
+    recomputed,
     with_claims,
 )
 
@@ -92,7 +92,7 @@ def arrays(data: Data) -> Verification:
     except InputError as error:
         return Verification(claims=(Claim("the arrays", proven=False, detail=str(error)),))
     detail = "their problems, laws, bounds and proofs are those of the solutions"
-    return Verification(unchecked=(Claim("the arrays", proven=False, detail=detail, checked=False),))
+    return with_claims(Verification(), [recomputed("the arrays", detail)])
 
 
 def drive_limit(data: Data) -> Verification:
@@ -180,8 +180,8 @@ def solution(data: Data) -> Verification:
 
 
 def _in_doubles(claim: Claim) -> Claim:
-    """A claim that doubles alone support: not checked; one that they refute stays not proven."""
-    return replace(claim, proven=False, detail=_IN_DOUBLES, checked=False) if claim.proven else claim
+    """A claim that doubles alone support; one that they refute stays not proven."""
+    return recomputed(claim.name, _IN_DOUBLES) if claim.proven else claim
 
 
 def _name(key: str) -> str:

@@ -408,3 +408,12 @@ def test_a_law_is_given_by_its_json_text_in_files_too(tmp_path: Path) -> None:
     assert read(reading.toml(file), file)[1]["axis"].pieces[0].law == law
     with pytest.raises(InputError, match=r"segment 1 \(Rise\): law: a law must be JSON text"):
         Cycle([Rise("35 mm", "0.1 s", law="{"), Return(law="cycloidal")], period="0.3 s")
+
+
+def test_a_given_law_that_decides_the_objective_is_optimal_whatever_the_others_are() -> None:
+    """The laws of least power are local; where a given law takes more than they do, none of them can be better."""
+    moves = [Rise("20 mm", "0.2 s"), Return("20 mm", "0.1 s", law="modified sine"), Dwell()]
+    plan = Cycle(moves, period="0.4 s", minimise="power", drive={"mass": "2 kg", "viscous": "3 N s/m"}).solve()
+    assert plan.solutions[0].status == "local"
+    assert plan.objective == pytest.approx(plan.lower_bound, rel=1e-12)
+    assert plan.status == "optimal"

@@ -431,6 +431,7 @@ def swept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, values: str, objectiv
     def cycle_of(axis: Any, *_: Any) -> Any:
         ratio = axis.drive["ratio"]
         known = {"objective": objective(ratio), "lower_bound": 0.0, "minimise": "torque", "status": Status.OPTIMAL}
+        known["lower_bound_name"] = "proven lower bound"
         return SimpleNamespace(**known, peaks=(), solutions=(1,), axis="angle", drive=None)
 
     monkeypatch.setattr(cycle_sweeps, "cycle_of", cycle_of)
@@ -458,7 +459,8 @@ def test_a_sweep_says_that_the_best_value_is_the_last(
 ) -> None:
     sweep = swept(monkeypatch, tmp_path, values, lambda ratio: 1.0 / ratio)
     assert len(sweep.rows) == len(sweep.entries.values)
-    assert f"is at drive.ratio = {last}. It is the last of the values" in sweep.remark
+    assert f"is at drive.ratio = {last}. It is the greatest of the values, at the edge of the sweep" in sweep.remark
+    assert "Widen the sweep: add 80 to its values." in sweep.remark
 
 
 def test_a_sweep_that_is_stopped_has_the_rows_so_far(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

@@ -370,7 +370,7 @@ def overlap_file(true: Overlap) -> Format:
         read = Overlap.from_dict(stored)
         (one,) = verifications.values()
         binding = [] if sorted(read.binding) == sorted(read.again().binding) else ["binding"]
-        return [*wrong(stored, read), *binding, *([] if len(one.unchecked) > 1 else ["nothing is left unchecked"])]
+        return [*wrong(stored, read), *binding, *([] if len(one.recomputed) > 1 else ["nothing is left unchecked"])]
 
     form = plain(true.to_dict())
     return Format(form, wrong_proven=wrong_verified)

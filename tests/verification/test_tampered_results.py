@@ -110,7 +110,7 @@ def is_above(one: Verification, true: Verification) -> bool:
 
 def words(verification: Verification) -> set[str]:
     """The words that name what is not checked."""
-    return {word for claim in verification.unchecked for word in claim.name.split()}
+    return {word for claim in (*verification.recomputed, *verification.unchecked) for word in claim.name.split()}
 
 
 @pytest.mark.sample(3)

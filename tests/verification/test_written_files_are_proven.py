@@ -19,12 +19,11 @@ from tests.internals.jobs import JOBS
 Numbers: TypeAlias = np.random.Generator
 Entries: TypeAlias = "dict[str, Any]"
 
-#: what the pages on verification say is computed again in doubles, or has no proof beside it
+#: what the pages on verification say has no proof beside it
 PARTLY = re.compile(
     r"not checked (at [^:]* s: )?"
-    r"(the best possible( time)?: .* in doubles|the file: results without proofs|the arrays: |the law: "
-    r"|the laws of the (cycle|motion): .* in doubles|the numbers: .* in doubles|lower_bound: .* do not prove alone"
-    r"|best.lower_bound: .* not linear in them)"
+    r"(the best possible( time)?: .* in doubles|the file: results without proofs|the law: "
+    r"|lower_bound: .* do not prove alone|best.lower_bound: .* not linear in them)"
 )
 #: exit codes of a problem that is refused, has no law, or whose solver stopped
 REFUSED = {2, 3, 4}

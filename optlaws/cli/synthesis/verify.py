@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -21,8 +21,9 @@ def verify(*files: Path) -> Answer:
 
     No picture is drawn: a verdict has no curve, and `optlaws law FILE --plot` draws the law of a solution.
 
-    Ends with 0 if every claim of every file is proven, 1 if one is false or not proven, 2 if a file cannot be checked,
-    3 if nothing is false and something was only computed again in doubles.
+    Ends with 0 if every proof of every file holds and every other number is computed again in doubles and agrees, 1 if
+    something is false or not proven, 2 if a file cannot be checked, 3 if nothing is false and something could not be
+    checked. The last line counts all three kinds.
 
     Parameters
     ----------
@@ -38,6 +39,7 @@ def verify(*files: Path) -> Answer:
     }
     alone = len(verifications) == len(files)
     lines = [_in_words(name, verification, whole=alone) for name, verification in verifications.items()]
+    lines.append(_in_all(verifications.values()))
     return Answer(
         lambda: lines,
         lambda: {name: verification.results() for name, verification in verifications.items()},
@@ -46,17 +48,31 @@ def verify(*files: Path) -> Answer:
 
 
 def _failure(verifications: Mapping[str, Verification]) -> NotProven | None:
-    """How much is not proven or, if nothing is false, was only computed again; the answer says what."""
+    """How much is not proven or, if nothing is false, could not be checked; the answer says what."""
     every = verifications.values()
     failed = sum(not claim.proven for each in every for claim in each.claims)
     if failed:
         return NotProven(f"{_claims(failed)} not proven")
     partly = sum(len(each.unchecked) for each in every)
-    return PartlyChecked(f"{_claims(partly)} not checked: computed again in doubles") if partly else None
+    return PartlyChecked(f"{_claims(partly)} not checked") if partly else None
 
 
 def _claims(count: int) -> str:
     return "1 claim is" if count == 1 else f"{count} claims are"
+
+
+def _numbers(*verifications: Verification) -> dict[str, int]:
+    """How many claims are not proven, proven, recomputed in doubles and not checked."""
+    claims = [claim for each in verifications for claim in each.claims]
+    proven = sum(claim.proven for claim in claims)
+    again, left = (sum(len(getattr(each, name)) for each in verifications) for name in ("recomputed", "unchecked"))
+    return {"not proven": len(claims) - proven, "proven": proven, "recomputed in doubles": again, "not checked": left}
+
+
+def _in_all(verifications: Iterable[Verification]) -> str:
+    """The last line: how many claims are of each kind, and how many are not proven if any."""
+    counts = _numbers(*verifications)
+    return ", ".join(f"{count} {word}" for word, count in counts.items() if count or word != "not proven")
 
 
 def _verified(file: Path) -> dict[str, Verification]:
@@ -103,6 +119,8 @@ def _unchecked(name: str, why: str, claims: Sequence[Claim] = ()) -> Verificatio
 
 
 def _in_words(name: str, verification: Verification, *, whole: bool) -> str:
+    from optlaws.verification.result import every_claim
+
     if whole:
         word = "not proven" if not verification.proven else "proven" if verification.claims else "not checked"
         if word == "proven" and verification.unchecked:
@@ -110,9 +128,6 @@ def _in_words(name: str, verification: Verification, *, whole: bool) -> str:
         return f"{name}: {word}\n{verification}\n"
     bound = "" if verification.bound is None else f", lower bound {verification.bound!r}"
     gap = "" if verification.gap is None else f", gap at most {verification.gap:.1e}"
-    doubtful = [claim for claim in (*verification.claims, *verification.unchecked) if not claim.proven]
-    proven = sum(claim.proven for claim in verification.claims)
-    counts = [(proven, "proven"), (len(verification.claims) - proven, "not proven")]
-    counts.append((len(verification.unchecked), "computed again in doubles only"))
-    words = ", ".join(f"{_claims(count)} {word}" for count, word in counts if count)
-    return "\n".join([f"{name}: {words or 'no claim'}{bound}{gap}", *map(str, doubtful)])
+    doubtful = [claim for claim in every_claim(verification) if not claim.proven]
+    counts = ", ".join(f"{_claims(count)} {word}" for word, count in _numbers(verification).items() if count)
+    return "\n".join([f"{name}: {counts or 'no claim'}{bound}{gap}", *map(str, doubtful)])

@@ -43,6 +43,7 @@ from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.search import limit_beside
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
+from optlaws.tolerances import AGREEMENT
 
 if TYPE_CHECKING:
     from optlaws.mechanisms.drives.drive_train import Drive
@@ -477,6 +478,27 @@ def span_bound(span: LawSpan, solution: Solution, objective: CycleObjective) -> 
         proven = value.bound(solution.problem, bound_by_energy(span, objective, solution, exact=exact))
     known = exact and proven > BOUND_ROUNDING * value.unit * solution.objective
     return proven if known else max(proven, _bound_of_drive(span, objective))
+
+
+def is_certified(layout: Layout, solved: Laws, objective: CycleObjective) -> bool:
+    """Whether the bounds of the solutions alone give the `bound_of` a cycle: no energy, no limit of a drive is higher.
+
+    These alone are what a verification of a plan proves with every rounding enclosed.
+    """
+    kind, drive = objective.kind, objective.drive
+    if kind is Kind.LOAD or kind.order:
+        return kind is not Kind.LOAD
+    for span, (_, solution) in zip(layout.spans, solved, strict=False):
+        value = span_value(span, drive, kind, mean=objective.mean)
+        minimised = solution.problem.objective == value.objective.expression()
+        shared = len(value.constants) > 1 or (value.constant and not value.summed)
+        if shared or not is_exact(span, objective) or not (minimised or not value.summed):
+            return False
+        proven = value.unit * solution.lower_bound + value.constant if minimised else 0.0
+        if span_bound(span, solution, objective) > proven * (1.0 + AGREEMENT):
+            return False
+    resting = kind in {Kind.POWER, Kind.ENERGY} or (kind is Kind.FORCE and known_drive(drive).linear is not None)
+    return all(resting and not piece.stroke for piece in layout.pieces)
 
 
 def is_exact(span: LawSpan, objective: CycleObjective) -> bool:

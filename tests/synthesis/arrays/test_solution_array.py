@@ -261,7 +261,7 @@ def test_each_solution_of_a_stored_array_is_verified() -> None:
     proven = verify_all(data)
     assert list(proven) == ["solutions[0].proof", "solutions[1]", "parts"]
     assert all(claim.proven for one in proven.values() for claim in one.claims)
-    assert [str(claim).startswith("not checked ") for claim in proven["parts"].unchecked] == [True]
+    assert [str(claim).startswith("recomputed ") for claim in proven["parts"].recomputed] == [True]
 
 
 def test_constants_are_those_of_the_laws_where_the_weight_of_one_varies() -> None:
