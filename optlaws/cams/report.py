@@ -356,7 +356,7 @@ def forces_section(forces: CamForces, pressed: str = "") -> Section:
     facts.append(Row("root mean square of the torque", mean_square, "N m"))
     left = leaves(forces)
     if left:
-        facts.insert(0, Row(left, place=degrees(forces.contact.least_at)))
+        facts.insert(0, Row(left, place=_least_contact_at(forces)))
     return Section(
         "Forces",
         facts=facts,
@@ -367,13 +367,26 @@ def forces_section(forces: CamForces, pressed: str = "") -> Section:
             " ",
             [
                 f"Torque at the shaft: root mean square {mean_square:.{DIGITS}g} N m, mean {mean:.{DIGITS}g} N m.",
-                f"{capital(left)}." if left else "The follower stays on the cam.",
+                *([] if left else ["The follower stays on the cam."]),
                 *([pressed] if pressed else []),
                 *([] if forces.width is None else [Surfaces(materials=forces.materials).assumed]),
             ],
         ),
         digits=DIGITS,
     )
+
+
+def leaves_at(forces: CamForces) -> str:
+    """The sentence of it for the head of a page, with where and the remedy; blank where the follower stays pressed."""
+    left = leaves(forces)
+    if not left:
+        return ""
+    at = f"{_least_contact_at(forces):.{DIGITS}g} deg"
+    return f"{capital(left)} at {at}: give its spring more preload or stiffness, or reduce the speed."
+
+
+def _least_contact_at(forces: CamForces) -> float:
+    return chop(degrees(forces.contact.least_at), TURN_DEG, FORCE_ROUNDING)
 
 
 def leaves(forces: CamForces) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import degrees
@@ -51,6 +51,7 @@ from optlaws.cams.report import (
     barrel_differences,
     barrel_section,
     forces_section,
+    leaves_at,
 )
 from optlaws.cams.springs_and_flywheels import (
     CONTACT,
@@ -87,6 +88,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _SIZE_MET = 1e-7  # of a radius: a size that is proven to so much is the least one
+_STIFFER = 0.5  # per cent: what a spring is stiffer than with the usual law, from which on that is said
 #: before the names of the files of the return cam
 _RETURN = "return-"
 #: what a spring adds to a drive
@@ -99,7 +101,12 @@ def run(results: Results) -> None:
     """Put the cam's page, data, table, pictures and files into results."""
     result = read(results.entries, results.file)
     title = results.title = result.spec.title
-    page = results.page("cam").text(result.spec.text).picture("cam", title, partial(result.drawn, title))
+    page = (
+        results.page("cam")
+        .text(result.warning)
+        .text(result.spec.text)
+        .picture("cam", title, partial(result.drawn, title))
+    )
     for section in result.sections:
         page.section(section)
     results.data("cam.json", result.data)
@@ -156,6 +163,7 @@ class BarrelResult(NamedTuple):
     data: dict[str, Any]
     table: ReportTable
     drawn: Callable[[str], Figure]
+    warning: str = ""  #: a groove leads its roller both ways
 
     @classmethod
     def of_file(cls, spec: BarrelProblemFile, known: Plan | None = None) -> BarrelResult:
@@ -163,7 +171,7 @@ class BarrelResult(NamedTuple):
         plan = known or spec.cycle.solve()
         cam = BarrelCam(plan, **spec.barrel.to_dict(), turning=spec.turning)
         sections, table = (
-            (barrel_section(cam), barrel_differences(cam)),
+            (barrel_section(cam), _laws_section(plan), barrel_differences(cam)),
             barrel_coordinates(cam, spec.rows, spec.cutter_radius),
         )
         data = _proven(spec, plan) | {name: value for each in sections for name, value in each.data.items()}
@@ -339,14 +347,7 @@ class CamResult:
     @kept_property
     def laws(self) -> Section:
         """What is least, with its bound and its status, among which laws it was found, and what is taken of limits."""
-        plan, rows = self.plan, self._best
-        laws = {each.name: getattr(each.stretch.given, "law", OPTIMAL) for each in plan.peaks}
-        given = [f"{name} {shortened(law)}" for name, law in laws.items() if law != OPTIMAL]
-        known = [
-            *([f"Search space: {plan.search_space}."] if plan.search_space else []),
-            *([f"Given laws: {'; '.join(given)}."] if given else []),
-            *([f"Limits: {'; '.join(map(_rounded, plan.limits_taken))}."] if plan.limits_taken else []),
-        ]
+        plan, known = self.plan, list[str]()
         if self._needs_spring and plan.solutions and kind_of(plan.minimise)[0].is_driven:
             spring, (force, stiffness) = self.least_spring, SPRING_UNITS[self.cam.displacement.axis]
             known.append(
@@ -354,12 +355,7 @@ class CamResult:
                 f'stiffness = "{spring.stiffness:.{DIGITS}g} {stiffness}" and preload = "{spring.preload:.{DIGITS}g} '
                 f'{force}".'
             )
-        if not rows and plan.solutions:
-            least = f"least {plan.minimise}"
-            rows = [Row(least, (plan.objective, plan.lower_bound), objective_unit(plan), note=plan.status.value)]
-        rows = [row._replace(note=_with_gap(row)) for row in rows]
-        table = ReportTable.of_pairs(rows, "value", "lower bound", "status") if rows else None
-        return Section("Laws for the cam", rows, table, self.of_laws, note="\n\n".join(known), digits=DIGITS)
+        return replace(_laws_section(plan, self._best, known), data=self.of_laws)
 
     @kept_property
     def of_laws(self) -> dict[str, Any]:
@@ -549,8 +545,23 @@ class CamResult:
         ]
         rows = [rows[0], *(row._replace(value=chop(row.value, spring.greatest, FORCE_ROUNDING)) for row in rows[1:])]
         rows.append(Row("reserve is least at", chop(spring.critical[0], TURN_DEG, FORCE_ROUNDING), "deg"))
-        note = capital(f"{spring.remark}.") if spring.remark else ""
+        note = " ".join(filter(None, [capital(f"{spring.remark}.") if spring.remark else "", self._spring_costs]))
         return Section("Spring", rows, data={"spring": spring.to_dict()}, note=note, digits=DIGITS)
+
+    @property
+    def _spring_costs(self) -> str:
+        """What the reserve costs in these laws beside the usual one; blank where their spring is not stiffer."""
+        name = "stiffness of the least spring"
+        usual = None if self.usual is None else self.usual.values.get(name)
+        if usual is None or not usual[0]:
+            return ""
+        stiffer = 100.0 * (self.least_spring.stiffness / usual[0] - 1.0)
+        if stiffer < _STIFFER:
+            return ""
+        return (
+            f"The reserve takes a spring that is {stiffer:.1f} % stiffer than with {USUAL}: limit the deceleration to "
+            "need less."
+        )
 
     @kept_property
     def manufactured(self) -> Section:
@@ -572,6 +583,11 @@ class CamResult:
         return Section(
             "As made", table=ReportTable.of_columns(columns), data={"as_made": data}, note=note, digits=DIGITS
         )
+
+    @property
+    def warning(self) -> str:
+        """That the follower leaves the cam, which stands before everything else; blank where it does not."""
+        return "" if self.forces is None else leaves_at(self.forces)
 
     @property
     def sections(self) -> tuple[Section, ...]:
@@ -604,6 +620,25 @@ class CamResult:
 def _proven(spec: CamOfMotion, plan: Plan) -> dict[str, Any]:
     """The entries of a cam with the solutions of its laws and their proofs, from which its numbers follow."""
     return {"unit": "SI", "cam": spec.to_dict(), "solutions": steady([each.to_dict() for each in plan.solutions])}
+
+
+def _laws_section(plan: Plan, best: Sequence[Row] = (), notes: Sequence[str] = ()) -> Section:
+    """What is least with its bound and its status, or rows that are `best`, the search space, given laws and limits."""
+    laws = {each.name: getattr(each.stretch.given, "law", OPTIMAL) for each in plan.peaks}
+    given = [f"{name} {shortened(law)}" for name, law in laws.items() if law != OPTIMAL]
+    known = [
+        *([f"Search space: {plan.search_space}."] if plan.search_space else []),
+        *([f"Given laws: {'; '.join(given)}."] if given else []),
+        *([f"Limits: {'; '.join(map(_rounded, plan.limits_taken))}."] if plan.limits_taken else []),
+        *notes,
+    ]
+    rows = list(best)
+    if not rows and plan.solutions:
+        least = f"least {plan.minimise}"
+        rows = [Row(least, (plan.objective, plan.lower_bound), objective_unit(plan), note=plan.status.value)]
+    rows = [row._replace(note=_with_gap(row)) for row in rows]
+    table = ReportTable.of_pairs(rows, "value", "lower bound", "status") if rows else None
+    return Section("Laws for the cam", rows, table, note="\n\n".join(known), digits=DIGITS)
 
 
 def _with_gap(row: Row) -> str:

@@ -13,8 +13,8 @@ from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.moves.fastest_move import best_possible_row
 from optlaws.cycles.placed import with_laws
 from optlaws.cycles.specification.programme import is_optimal, period_of
-from optlaws.cycles.specification.segments import CycleSegment, Dwell
-from optlaws.cycles.specified import problem_file
+from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment, Dwell
+from optlaws.cycles.specified import CLOCK, problem_file
 from optlaws.echo import keywords_of, shortened
 from optlaws.entries.declared import Declared, declared, entry, same
 from optlaws.entries.value_types import Choice, Listed, Number, ReadBy, Text
@@ -22,7 +22,7 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.laws.law import AxesExportOptions
-from optlaws.motion.quantities import Exact
+from optlaws.motion.quantities import Derived, Exact
 from optlaws.numbers import NumberOrQuantity, Quantity
 from optlaws.shown.report import Report
 from optlaws.shown.summary import Row, Summary
@@ -153,11 +153,18 @@ class AxesAnswers(Mapping[str, Cycle]):
         >>> print(Axes({"slide": [Rise("35 mm", "120 deg"), Return()]}, speed="200 rpm").to_toml("Press"))
         job = "cycle"
         title = "Press"
-        period = "0.30000000000000004 s"
+        speed = "200 rpm"
         ...
         """
         interlocks = [interlock.to_dict() for interlock in self.solve().rules]
-        return problem_file(title, {"period": Exact(self.duration, "s")}, self, {"interlocks": interlocks})
+        cycles = [cycle.specification for cycle in self.values()]
+        given = {name: {getattr(cycle, name) for cycle in cycles} for name in CLOCK}
+        # the words of what was given, where all axes have the same
+        clock = next(
+            ({name: each} for name, (each, *more) in given.items() if not more and not isinstance(each, Derived)),
+            {"period": Exact(self.duration, "s")},
+        )
+        return problem_file(title, clock, self, {"interlocks": interlocks})
 
     def to_pandas(self) -> Any:
         """A data frame with a row for each segment of each axis: start, duration, peaks, jumps; SI units.
@@ -262,7 +269,8 @@ class Axes(AxesAnswers, Declared, title="stored axes"):
         ),
         'What each axis does: a list of segments, a table of what `Cycle` takes (`{"segments": [...], "limits": '
         "{...}}`), or a `Cycle` of the same duration or the `Plan` of one; where all are such neither speed nor period "
-        "is needed.",
+        "is needed. Lists and tables without either begin in the diagram from which `fastest` seeks the least period: "
+        "moves in their least times within their limits, dwells with what is left.",
     )
     _: KW_ONLY
     speed: NumberOrQuantity | None = same(Cycle, "speed", default=None)
@@ -324,6 +332,11 @@ class Axes(AxesAnswers, Declared, title="stored axes"):
         >>> best = Axes({"slide": slide, "tool": tool}, period="1 s", interlocks=[rule]).fastest()
         >>> best.status.value, round(best.objective, 6), best.axes.clearances[0].status
         ('optimal', 0.51093, 'clear')
+
+        No period is needed:
+
+        >>> round(Axes({"slide": slide, "tool": tool}, interlocks=[rule]).fastest().objective, 6)
+        0.51093
         """
         return _overlapped(self, "period", tuple(self))
 
@@ -403,12 +416,31 @@ class Axes(AxesAnswers, Declared, title="stored axes"):
         return AxesReport(self.cycles, self.rules)
 
     @kept_property
+    def _begun(self) -> dict[str, Cycle]:
+        """The cycles in the diagram from which a least period is sought, where no period is given."""
+        from optlaws.cycles.axes.first_diagram import first_diagram
+
+        entries, moves = dict[str, dict[str, Any]](), dict[str, Sequence[CycleSegment]]()
+        for name, given in self.axes.items():
+            with located(f"axis {name}"):
+                entries[name] = _entries(given)
+                moves[name] = SEGMENTS.read(entries[name]["segments"], "segments")
+
+        def cycle_of(name: str, segments: Sequence[CycleSegment], period: Quantity) -> Cycle:
+            return Cycle(**{**entries[name], "segments": segments}, period=period)
+
+        timed, seconds = first_diagram(moves, cycle_of, None)
+        return {name: cycle_of(name, segments, Exact(seconds, "s")) for name, segments in timed.items()}
+
+    @kept_property
     def cycles(self) -> dict[str, Cycle]:
         """Its cycles, or plans, which have what is looked at of a cycle."""
         clock: dict[str, Any] = {"speed": self.speed, "period": self.period}
         cycles = dict[str, Any]()
         if self.speed is None and self.period is None and all(isinstance(a, Cycle | Plan) for a in self.axes.values()):
             clock = {}
+        if not any(clock.values()) and clock and all(isinstance(a, Mapping | list | tuple) for a in self.axes.values()):
+            return self._begun
         duration = period_of(**clock) if clock else 0.0
         for name, given in self.axes.items():
             with located(f"axis {name}"):

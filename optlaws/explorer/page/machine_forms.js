@@ -299,5 +299,5 @@ function turned(value, kind) {
   const [, number, unit] = /^([\d.eE+-]+)\s*(rpm|1\/min|s|ms)$/.exec(value ?? "") ?? [];
   const [times, written] = kind === "period" ? [{ rpm: 60, "1/min": 60 }[unit], "s"] : [{ s: 60, ms: 60_000 }[unit], "rpm"];
   const turns = times / Number(number);
-  return Number.isFinite(turns) ? `${Number(turns.toPrecision(12))} ${written}` : SPEEDS[kind];
+  return Number.isFinite(turns) ? `${Number(turns.toPrecision(5))} ${written}` : SPEEDS[kind];
 }

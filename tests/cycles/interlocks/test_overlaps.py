@@ -1,5 +1,6 @@
 """Moves that overlap as far as interlocks let them, with given laws and with laws that are sought."""
 
+from dataclasses import replace
 from math import pi, sqrt
 from typing import Any
 
@@ -479,3 +480,16 @@ def test_what_no_laws_can_do_is_named() -> None:
         Axes(
             {"x": {"segments": [jumps, Dwell("0.1 s"), Return(), Dwell("0.2 s")], "limits": LIMITS}}, period="1 s"
         ).fastest()
+
+
+def test_a_least_period_needs_no_period_to_begin_from() -> None:
+    slide: list[Any] = [Rise("60 mm", law="cycloidal"), Dwell("0.1 s"), Return(law="cycloidal"), Dwell()]
+    timed = [replace(slide[0], duration="0.5 s"), slide[1], replace(slide[2], duration="0.5 s"), Dwell(least="0 s")]
+    limits = {"acceleration": "20 m/s^2"}
+    known = Axes({"slide": {"segments": timed, "limits": limits}}, period="3 s").fastest()
+    assert Axes({"slide": {"segments": slide, "limits": limits}}).fastest().objective == pytest.approx(known.objective)
+    unlimited = {"slide": slide}
+    with pytest.raises(
+        InputError, match=r"axis slide: segment 1 \(Rise\): nothing bounds its time: give it a duration"
+    ):
+        _ = Axes(unlimited).duration

@@ -207,7 +207,9 @@ def test_a_pair_has_its_second_cam_in_table_picture_and_files(tmp_path: Path) ->
 
 
 def test_a_barrel_has_its_flanks_tabled(tmp_path: Path) -> None:
-    _, reply, written = done(tmp_path, 'cutter_radius = "5 mm"\n' + BARREL)
+    page, reply, written = done(tmp_path, 'cutter_radius = "5 mm"\n' + BARREL)
+    assert re.search(r"\| least acceleration +\| [\d.]+ +\| [\d.]+ +\| m/s² +\| optimal", page)
+    assert "Search space: laws of order 3 with Z of degree 5." in page
     cam = BarrelCam(cycle(), "60 mm", "12 mm", "8 mm")
     table = np.genfromtxt(tmp_path / "out" / "cam.csv", delimiter=",", skip_header=2)
     angles = np.radians(table[:, 0])
@@ -351,3 +353,31 @@ def test_a_page_says_that_modified_sine_is_better_in_the_objective(tmp_path: Pat
     assert chosen > usual
     study = {**reading.toml(tmp_path / "small.toml")}
     assert cam_view.sizes(CycleRequest(study=study))["facts"][-1].startswith(remark)
+
+
+def test_a_follower_that_lifts_off_is_the_first_sentence_of_its_page(tmp_path: Path) -> None:
+    motion = MOTION.replace("degree = 5", 'degree = 5\ndrive = { mass = "2 kg" }')
+    text = HEAD + 'prime_radius = "60 mm"\n' + ROLLER + "[forces]\n" + motion
+    page, reply, _ = done(tmp_path, text)
+    title, _, first, *_ = page.split("\n\n")
+    assert title == "# Small"
+    assert re.fullmatch(
+        r"The follower lifts off at [\d.]+ deg: give its spring more preload or stiffness, or reduce the speed\.", first
+    )
+    assert reply["forces"]["contact"]["least"] < 0.0
+    assert page.count("lifts off") == 1
+    (tmp_path / "held").mkdir()
+    held = motion.replace('"2 kg"', '"2 kg", stiffness = "3 N/mm", preload = "100 N"')
+    assert "lifts off" not in done(tmp_path / "held", text.replace(motion, held))[0]
+
+
+def test_what_the_reserve_of_a_spring_costs_beside_the_usual_law_is_said(tmp_path: Path) -> None:
+    motion = MOTION.replace("degree = 5", 'degree = 5\ndrive = { mass = "2 kg" }')
+    motion = motion.replace('by = "35 mm"', 'by = "35 mm"\nlaw = "345"').replace('"return"', '"return"\nlaw = "345"')
+    spring = '[spring]\nspeeds = ["0 rpm", "200 rpm"]\nforce = "20 N"\n'
+    page, reply, _ = done(tmp_path, HEAD + 'prime_radius = "60 mm"\n' + ROLLER + spring + motion)
+    values = {each["name"]: each["change"] for each in reply["usual_law"]["values"]}
+    stiffer = values["stiffness of the least spring"]
+    assert stiffer > 0.005
+    said = f"The reserve takes a spring that is {100.0 * stiffer:.1f} % stiffer than with modified sine: limit the "
+    assert said in page
