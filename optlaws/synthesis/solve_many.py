@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from itertools import chain, islice, repeat
 from math import inf
 from time import perf_counter
@@ -21,8 +21,7 @@ from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, whole
 from optlaws.shown.steps import Steps
-from optlaws.synthesis.arrays.continuation import StructureSegment
-from optlaws.synthesis.arrays.continued_laws import laws_along, segments_of, with_stored_structures
+from optlaws.synthesis.arrays.continuation import StructureSegment, laws_along, with_stored_structures
 from optlaws.synthesis.arrays.lines import ProblemLine, along_velocities, form_of, least_count, lines_of
 from optlaws.synthesis.arrays.powers import least_power, on_global_branch, with_quick_bounds
 from optlaws.synthesis.arrays.problems import ProblemArray
@@ -183,7 +182,7 @@ def _alone(problems: ProblemArray, place: int, near: Solution | None, bound: Bou
 class SolvedLine:
     """Convex problems between two, that differ in one number in which their programs are affine.
 
-    Where their structures change is computed once, so that laws are to be had again and again.
+    The structures that laws at some values had are those that laws at others are tried with.
 
     Examples
     --------
@@ -198,11 +197,12 @@ class SolvedLine:
     problem_at: Callable[[float], Problem]  #: the problem at a value of it
     low: float
     high: float
+    _segments: list[StructureSegment] = field(default_factory=list, repr=False)  #: what is known so far
 
     def _problems(self, values: Array) -> ProblemArray:
         if self.name != "B":
             return ProblemArray.of([self.problem_at(value) for value in values.tolist()])
-        entries = {field.name: getattr(self.problem, field.name) for field in fields(Problem)}
+        entries = {entry.name: getattr(self.problem, entry.name) for entry in fields(Problem)}
         return ProblemArray(**{**entries, "B": values})
 
     def at(self, values: Array) -> SolutionArray:
@@ -213,7 +213,7 @@ class SolvedLine:
         t = (values - self.low) / (self.high - self.low)
         order = np.argsort(t, kind="stable")
         order = order[(t[order] >= 0.0) & (t[order] <= 1.0)]
-        laws = laws_along(self._path, t[order], lambda: self._segments)
+        laws = laws_along(self._path, t[order], self._segments)
         rows = np.flatnonzero(laws.solved)
         parts = [SolvedPart(order[rows], self._path.model, laws.taken(rows).frozen())] if len(rows) else []
         return completed(problems, parts, {}, began)
@@ -228,10 +228,6 @@ class SolvedLine:
             return None
         form = form_of(first).key
         return between(first, last) if first.convex and form is not None and form == form_of(last).key else None
-
-    @kept_property
-    def _segments(self) -> list[StructureSegment]:
-        return [] if self._path is None else segments_of(self._path, 0.0, 1.0)
 
 
 def synthesize_array(problems: ProblemArray, *, bound: Bound = "quick") -> SolutionArray:

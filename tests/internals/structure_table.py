@@ -11,10 +11,9 @@ import numpy as np
 
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes
-from optlaws.synthesis.arrays.continuation import StructureSegment
-from optlaws.synthesis.arrays.continued_laws import segments_of
+from optlaws.synthesis.arrays.continuation import StructureSegment, laws_along
 from optlaws.synthesis.arrays.newton_steps import structure_of
-from optlaws.synthesis.arrays.programs import between
+from optlaws.synthesis.arrays.programs import Path, between
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.method.contacts import polished
@@ -43,8 +42,17 @@ _DEGREES = {"C": (*range(3, 42, 2), 51, 61), "J": range(3, 22, 2), "D": range(3,
 _LEAST, _GREATEST = {"C": (1.001, 1.1), "J": (1.001, 1.1), "D": (1.1,)}, 3.0
 #: coefficients of a place along B, where it moves
 _TERMS = 4
+#: where on a path structures are told apart: nearer than the units of B in which they are stored
+_ALONG = np.linspace(0.0, 1.0, 2**15 + 1)
 #: where on a stretch laws of problems that are not convex are sought from several starts too
 _SOUGHT = (0.02, 0.26, 0.5, 0.74, 0.98)
+
+
+def segments_along(path: Path, t: Array) -> list[StructureSegment]:
+    """The structures of the optima at ascending t, more of them than are taken from the file, in their order."""
+    segments: list[StructureSegment] = []
+    laws_along(path, t, segments)
+    return sorted(segments, key=lambda segment: segment.begin)
 
 
 def structures_along_velocity(problem: Problem) -> list[StoredStructure]:
@@ -57,7 +65,7 @@ def structures_along_velocity(problem: Problem) -> list[StoredStructure]:
 def _along(problem: Problem, ends: tuple[float, float]) -> list[StoredStructure]:
     """The structures that a walk between two B finds: at high degrees it may end early."""
     path = between(problem.at_velocity(ends[0]), problem.at_velocity(ends[1]))
-    segments = [] if path is None else segments_of(path, 0.0, 1.0)
+    segments = [] if path is None else segments_along(path, _ALONG)
     return [_stored(segment, ends) for segment in segments if segment.end - segment.begin > _SHORT_STRETCH]
 
 

@@ -1,8 +1,7 @@
 """Internals of `optlaws.synthesis` that tests look at by themselves."""
 
 from optlaws.synthesis import search, solve_many
-from optlaws.synthesis.arrays.continuation import ParametricContinuation, StructureSegment, _event
-from optlaws.synthesis.arrays.continued_laws import laws_along, laws_on
+from optlaws.synthesis.arrays.continuation import StructureSegment, laws_along
 from optlaws.synthesis.arrays.newton_steps import States, converged, locally_optimal
 from optlaws.synthesis.arrays.powers import least_power, on_global_branch
 from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between

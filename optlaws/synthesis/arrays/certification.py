@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.synthesis.arrays.cells import Cells, Residuals, excess_at
+from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds
 from optlaws.synthesis.arrays.newton_steps import States, Structure, batch_families, locally_optimal, product, with_one
 from optlaws.synthesis.arrays.programs import Numbers, Path
-from optlaws.synthesis.families.family import BatchFamily, LinearFamily, NonlinearFamily
+from optlaws.synthesis.families.family import BatchFamily, LinearFamily, NonlinearFamily, RatioFamily
+from optlaws.synthesis.families.peaks import peaks
 from optlaws.synthesis.program.writer import Model
 
 _CERTIFIED_EXCESS = 1e-11  # of a right side, or 1: by so much a row of a certified law may be broken
@@ -22,6 +23,7 @@ _SHARP_GAP = 5e-12  # of an objective: a bound that leaves more is computed more
 _CURVED_GAP = 9e-11  # of an objective: what the bound of a proven law of curved rows may leave
 _GREAT_MULTIPLIERS = 1e-9  # of an objective: what rounding may leave of it where multipliers are great
 _CERTIFIED_PULL = 1e-12  # of the greatest multiplier: by so much one may be below 0, for which the bound counts it as 0
+_INWARD = 0.25  # of a domain: how far inward the slope of a row at an end counts
 _SMALL_OBJECTIVE = 1e-6  # of an objective's scale: one that is less is measured by that
 
 
@@ -34,17 +36,11 @@ class Certification:
     bound: Array
     excess: Array  #: by how much a row may be broken anywhere, relative to its right side or 1
     pull: Array  #: how far the least multiplier is below 0, relative to the greatest; negative above it
-    inward: Array  #: how fast a residual grows from a contact that is held at an end; negative where it falls
     #: whether no law beside it is better, where that does not follow from the bound: of problems that are not convex
     #: the bound is that of their rows' planes at the law
     best: NDArray[np.bool_]
     affine: bool  #: whether all rows are affine, so that a gap that is left is one of rounding
     scale: float  #: of the objective
-
-    @property
-    def broken(self) -> Array:
-        """The greatest of several values that must not exceed 0, beyond rounding."""
-        return np.asarray(np.maximum(np.maximum(self.excess, self.pull), self.inward))
 
     @property
     def sound(self) -> NDArray[np.bool_]:
@@ -71,26 +67,21 @@ def certification_of(path: Path, structure: Structure, numbers: Numbers, states:
     value[:, :, :-1] -= structure.slack
     point = with_one(states.x)
     residual = product(value, point) - numbers.bounds[:, structure.family]
-    turned = product(slope, point)
-    # toward the inside of the domain
-    inward = np.where(states.u >= structure.domains[:, 1], -turned, turned)
-    at_end = structure.at_end
-    tangent = np.where(structure.free, np.abs(turned), np.where(at_end, np.maximum(inward, 0.0), 0.0))
     room = states.x @ structure.slacks.T + numbers.bounds
-    unit = np.maximum(1.0, np.abs(room))[:, structure.family]
-    broken = (np.maximum(residual, 0.0) + checks.reach[structure.family] * tangent) / unit
+    # where a row grows inward from a contact at its end the contact is to move, however little it is broken
+    ways = np.where(states.u >= structure.domains[:, 1], -1.0, 1.0)
+    inward = product(slope, point) * np.where(structure.at_end, ways, 0.0)
+    broken = np.maximum(residual, _INWARD * inward) / np.maximum(1.0, np.abs(room))[:, structure.family]
     off = np.abs(states.x @ program.equalities.T - numbers.right)
     worst = np.maximum(broken.max(axis=1, initial=0.0), off.max(axis=1, initial=0.0))
-    touching = [states.u[:, contacts] for contacts in structure.of_families]
     greatest = np.abs(states.weights).max(axis=1, initial=0.0)
     pull = -(states.weights / np.where(greatest == 0.0, 1.0, greatest)[:, None]).min(axis=1, initial=np.inf)
     return Certification(
         best=np.ones(len(states), dtype=np.bool_) if checks.proving else locally_optimal(structure, states),
         objective=path.model.unit * (states.x * numbers.cost).sum(axis=1),
         bound=lower_bounds(path, structure, numbers, states, value),
-        excess=np.maximum(worst, checks.excess(point, room, touching)),
+        excess=np.maximum(worst, checks.excess(point, room)),
         pull=np.where(np.isfinite(pull), pull, 0.0),
-        inward=np.where(at_end, inward, -np.inf).max(axis=1, initial=-np.inf),
         affine=not program.curved,
         scale=path.model.unit,
     )
@@ -108,36 +99,53 @@ class RowChecks:
         return all(family.proving for family in self.families)
 
     @kept_property
-    def _wide(self) -> dict[int, LinearFamily]:
-        """The affine families that hold on an interval."""
-        affine = {i: family for i, family in enumerate(self.families) if isinstance(family, LinearFamily)}
-        return {i: family for i, family in affine.items() if family.domain[0] < family.domain[1]}
+    def _series(self) -> dict[int, Array]:
+        """The affine families, each as series over its domain."""
+        return {i: _over_domain(family) for i, family in enumerate(self.families) if isinstance(family, LinearFamily)}
 
-    @kept_property
-    def _cells(self) -> Cells:
-        return Cells(tuple(self._wide.values()))
-
-    @kept_property
-    def reach(self) -> Array:
-        """The distance from a contact of each family up to which its tangent is used; 0 without cells."""
-        shortfalls = np.zeros(len(self.families))
-        if self._wide:
-            shortfalls[list(self._wide)] = self._cells.reach
-        return shortfalls
-
-    def excess(self, point: Array, room: Array, touching: Sequence[Array]) -> Array:
+    def excess(self, point: Array, room: Array) -> Array:
         """The greatest violation of the rows of any family by each law, relative to the right side or 1."""
         shortfalls = np.zeros(len(point))
-        if self._wide:
-            wide = room[:, list(self._wide)], [touching[i] for i in self._wide]
-            shortfalls = Residuals(self._cells, point, *wide).excess()
         for i, family in enumerate(self.families):
             if isinstance(family, NonlinearFamily):
-                over = np.maximum(family.greatest(point) - room[:, i], 0.0) / np.maximum(1.0, np.abs(room[:, i]))
-                shortfalls = np.maximum(shortfalls, over)
-            elif isinstance(family, LinearFamily) and i not in self._wide:
-                shortfalls = np.maximum(shortfalls, excess_at(family, point, room[:, i]))
+                greatest = family.greatest(point)
+            else:
+                greatest = _greatest(point @ self._series[i].T, family.signs)
+            over = np.maximum(greatest - room[:, i], 0.0) / np.maximum(1.0, np.abs(room[:, i]))
+            shortfalls = np.maximum(shortfalls, over)
         return shortfalls
+
+
+def _greatest(series: Array, signs: tuple[float, ...]) -> Array:
+    """The greatest of series, with the signs that count."""
+    if len(signs) > 1:
+        return peaks(series)
+    size = np.abs(series).sum(axis=1)
+    raised = signs[0] * series
+    raised[:, 0] += size
+    return np.asarray(peaks(raised) - size)
+
+
+def _over_domain(family: LinearFamily) -> Array:
+    """Chebyshev series over a family's domain of its columns, or of what is above a bound where these are.
+
+    Divided by a root that vanishes at its end f is a polynomial of that root; and where f is divided by powers that
+    vanish there, its values are so great that the undivided ones say more.
+    """
+    low, high = family.domain
+    count, weight = len(family.series), np.ones(1)
+    if low == high:
+        return np.asarray(family.columns(np.array([low]))[0])
+    if family.root:
+        count *= 2
+        near, far = np.sqrt(1.0 - high), np.sqrt(1.0 - low)
+        u = 1.0 - (near + (far - near) * (nodes(count) + 1.0) / 2.0) ** 2
+    else:
+        power = round(family.index - 0.5) if isinstance(family, RatioFamily) else 0
+        count += power
+        u = low + (high - low) * (nodes(count) + 1.0) / 2.0
+        weight = (((1.0 - u) / 2.0) ** power)[:, None]
+    return np.asarray(from_values(family.columns(u)[0] * weight))
 
 
 def row_checks_of(model: Model) -> RowChecks:

@@ -1,61 +1,67 @@
-"""The structures of a path, one after the other: where each holds, and states from which every law of it is near.
+"""The laws of a path at many t: each structure is extended from one law as far as laws of it are proven optimal.
 
-A structure is walked along from a law that has it, as far as laws of it are proven optimal; there a single event
-changes it, and the law just beyond shows the next one.
+Beside a law that is known the next one is sought by itself; its structure is tried at ever more distant places in
+either direction, and all places between are filled in waves, each interpolated from the one before and made exact by a
+step of Newton's method. Every law is proven optimal by itself, but where a structure's places and multipliers do not
+depend on t: there its laws are affine in t, and two that are verified verify all between, for constraints are convex,
+and what multipliers prove is affine.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from itertools import pairwise
-from math import isnan, prod
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.synthesis.arrays.certification import certification_of
-from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, structure_of
-from optlaws.synthesis.arrays.programs import Path
+from optlaws.numerics.chebyshev import nodes as chebyshev_nodes
+from optlaws.synthesis.arrays.certification import Certification, certification_of
+from optlaws.synthesis.arrays.dual_bounds import lower_bounds
+from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, packed, step, structure_of
+from optlaws.synthesis.arrays.programs import NO_CONTACT, Numbers, Path, SolvedBatch
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.method.contacts import polished
 from optlaws.synthesis.method.exchange import solve
-from optlaws.tolerances import AT_END, VALUE_ROUNDING
+from optlaws.synthesis.method.stored_structures import StoredStructure, guess_of, is_usual, key_of, stored_structures
+from optlaws.tolerances import AGREEMENT, AT_END, VALUE_ROUNDING
 
-_ASTRAY = 1e-3  # so near to an event no more than this can be broken: where more is, Newton's method went astray
-_EVENT_WIDTH = 5e-8  # of the path: an event is known to lie in no wider a stretch
-_LOST_EVENT_WIDTH = 1e-5  # of the path: the same where Newton's method ends, and nothing tells where the event is
-_BETWEEN_SEGMENTS = 9e-8  # of the path: a longer stretch between two segments is walked from its other end too
 _SAME_STATE = 1e-5  # of a segment: states nearer to each other are one of those that others are interpolated between
+_CERTIFIED_GAP = 1e-10  # of an objective: laws of an array whose bound leaves no more are proven
+_ROUGH_STEP = 1e-7  # of a law: a step of more than this share is followed by another
 
-#: of the path: the first stride
-_FIRST = 0.02
-_STRIDES = np.array([0.25, 0.5, 1.0, 2.0, 4.0, 8.0])
-_CLOSER = np.array([1e-1, 1e-2, 1e-4, 1e-6])
-#: laws beyond an event that tell where it is
-_KNOWN = 3
-_ROUNDS = 24
+#: states between which others are interpolated
 _NEAR = 4
-#: states that are nearer to each other than this share of the way to where one is guessed are as one
-_APART = 0.2
-_MOST = 400
 #: contacts that are nearer to each other may be two of one
 _SAME = 0.02
-_BEYOND = (4e-8, 1e-6, 1e-4, 1e-3)
+#: places at once at which it is looked how far a structure holds
+_PROBES = 8
+#: of the places with one structure, every how many are solved in a wave
+_WAVES = (64, 16, 4, 1)
+#: laws in a wave, at least, but the last
+_PER_WAVE = 8
+#: places in a row beside a law that may have no structure of their own, as where one gives way to the next
+_PASSED = 3
+#: laws at a time, and bytes of their matrices
+_CHUNKS = (128, 1024)
+_AT_HAND = 2**21
+#: so many laws are quicker from stored structures than from those of their neighbours
+_WITH_STORED = 1024
+#: contacts beyond the number of variables that a law may have
+_SPARE = 4
+_STARTS = np.array([0.5, 0.25, 0.75, 0.0, 1.0])
+
+Places = NDArray[np.intp]
 
 
 @dataclass(eq=False)
 class StructureSegment:
-    """A stretch of the path on which the laws have one structure, with states of some of them by ascending t.
-
-    `pieces` are stretches of it, by their ends: t and states of nodes, where the polynomial through these is near to
-    all states between, or None, where it is not.
-    """
+    """A stretch of the path on which the laws have one structure, with states of some of them by ascending t."""
 
     structure: Structure
     t: Array
     rows: Array
-    pieces: dict[tuple[float, float], tuple[Array, Array] | None] = field(default_factory=dict, repr=False)
 
     @property
     def begin(self) -> float:
@@ -67,34 +73,8 @@ class StructureSegment:
         """The greatest t at which a law is known."""
         return float(self.t[-1])
 
-    def guessed(self, t: Array) -> States:
-        """States at other t, by the polynomial through some that are known near to each."""
-        return self.states(np.array([self._weights(number) for number in t.tolist()]) @ self.rows)
-
-    def states(self, rows: Array) -> States:
-        """States from rows that were interpolated, in which places that may not move are exactly where they are."""
-        states = States.unpacked(rows, self.structure)
-        known = States.unpacked(self.rows[:1], self.structure)
-        return replace(states, u=np.where(self.structure.free, states.u, known.u))
-
-    def _weights(self, t: float) -> Array:
-        """Weights of known states at t: the nearest one, and others that are not too near to each other."""
-        known = self.t.tolist()
-        order = np.argsort(np.abs(self.t - t)).tolist()
-        least = _APART * abs(known[order[0]] - t)
-        chosen = [order[0]]
-        for i in order[1:]:
-            if len(chosen) == _NEAR:
-                break
-            if all(abs(known[i] - known[j]) > least for j in chosen):
-                chosen.append(i)
-        weights = np.zeros(len(known))
-        for i in chosen:
-            weights[i] = prod((t - known[j]) / (known[i] - known[j]) for j in chosen if j != i)
-        return weights
-
     def interpolated(self, t: Array) -> States:
-        """States between those that are known, by the polynomial through the nearest on both sides."""
+        """States at other t by the polynomial through the nearest on both sides; places that may not move stay."""
         distinct = np.flatnonzero(np.diff(self.t, prepend=-np.inf) > _SAME_STATE * (self.end - self.begin))
         near = min(_NEAR, len(distinct))
         begin = np.clip(np.searchsorted(self.t[distinct], t) - near // 2, 0, len(distinct) - near)
@@ -105,12 +85,47 @@ class StructureSegment:
         away = np.repeat((t[:, None] - places)[:, None, :], near, axis=1)
         away[:, np.arange(near), np.arange(near)] = 1.0
         weights = (away / apart).prod(axis=2)
-        return self.states(np.einsum("tn,tnk->tk", weights, self.rows[chosen]))
+        states = States.unpacked(np.einsum("tn,tnk->tk", weights, self.rows[chosen]), self.structure)
+        known = States.unpacked(self.rows[:1], self.structure)
+        return replace(states, u=np.where(self.structure.free, states.u, known.u))
 
     def joined(self, t: Array, rows: Array) -> None:
-        """A continuation with further states."""
+        """Further states of the segment."""
         every, unique = np.unique(np.concatenate([self.t, t]), return_index=True)
         self.t, self.rows = every, np.concatenate([self.rows, rows])[unique]
+
+
+def laws_along(path: Path, t: Array, segments: list[StructureSegment] | None = None) -> SolvedBatch:
+    """The optima at ascending t, as far as they are proven; known segments are tried first, and others join them.
+
+    >>> from optlaws.synthesis.arrays.programs import between
+    >>> from optlaws import Problem
+    >>> path = between(Problem(B=1.6, order=4), Problem(B=1.7, order=4))
+    >>> laws_along(path, np.array([0.0, 0.2])).objective.round(6).tolist()
+    [5.262224, 5.173677]
+    """
+    program, known = path.model.program, [] if segments is None else segments
+    stored = _stored_along(path, t) if len(t) <= _WITH_STORED else None
+    laws = SolvedBatch.none(len(t), program.size, program.size + _SPARE, len(program.right))
+    if stored is not None:
+        laws = _laws_of_stored_structures(path, t, stored).wider(program.size + _SPARE)
+        if laws.solved.all():
+            return laws
+    for segment in known:
+        _fill(laws, path, segment, t, np.flatnonzero((t >= segment.begin) & (t <= segment.end)))
+    untried = np.ones(len(t), dtype=np.bool_)
+    while (place := _next_place(laws.solved, untried)) is not None:
+        untried[place] = False
+        solved = np.flatnonzero(laws.solved)
+        near = laws.active_set(int(solved[np.argmin(np.abs(solved - place))])) if len(solved) else None
+        # beyond the laws of stored structures there may be none, and to find that takes long
+        anew = stored is None or not len(solved) or bool(solved[0] < place < solved[-1])
+        following = segment_at(path, float(t[place]), near, anew=anew)
+        if following is not None and following.structure.count <= laws.u.shape[1]:
+            ends = [_last_place(path, following, t, place, end) for end in _open_ends(laws.solved, place)]
+            _fill(laws, path, following, t, np.arange(ends[0], ends[1] + 1))
+            known.append(following)
+    return _in_own_bounds(laws, path, t)
 
 
 def segment_at(path: Path, t: float, near: ActiveSet | None, *, anew: bool = True) -> StructureSegment | None:
@@ -120,153 +135,17 @@ def segment_at(path: Path, t: float, near: ActiveSet | None, *, anew: bool = Tru
     """
     program = path.program(t)
     optimum = solve(program, near).optimum if anew or near is None else polished(program, near, None)
-    return None if optimum is None else ParametricContinuation(path, t, t).begun(t, optimum)
-
-
-@dataclass(eq=False)
-class ParametricContinuation:
-    """A path of solutions along a parameter, as the segments that are known so far."""
-
-    #: path, least, greatest: along what, and between which t
-    path: Path
-    least: float
-    greatest: float
-    segments: list[StructureSegment] = field(default_factory=list)  #: in the order in which they were found
-
-    @property
-    def reach(self) -> float:
-        """The length of the continued range."""
-        return self.greatest - self.least
-
-    def whole(self, starts: Array) -> list[StructureSegment]:
-        """All segments from one end to the other, by ascending t, as far as they are known."""
-        for t in starts.tolist():
-            first = segment_at(self.path, t, None)
-            if first is not None:
-                self._onward(first, self.greatest)
-                self._onward(first, self.least)
-                break
-        self.segments.sort(key=lambda segment: segment.begin)
-        return self.segments
-
-    def begun(self, t: float, optimum: ActiveSet) -> StructureSegment | None:
-        """A segment that begins with one law; None where that is not proven optimal."""
-        merged = optimum.merged(_SAME)
-        for candidate in (optimum,) if merged is optimum else (optimum, merged):
-            structure, order = structure_of(self.path.model, candidate)
-            state = (
-                candidate.x,
-                _on_ends(structure, candidate.u[order]),
-                candidate.multipliers[order],
-                candidate.equality_multipliers,
-            )
-            rows, sound, _ = self._solved(structure, np.array([t]), States(*(part[None] for part in state)))
-            if sound[0]:
-                return StructureSegment(structure, np.array([t]), rows)
+    if optimum is None:
         return None
-
-    def _onward(self, first: StructureSegment, goal: float) -> None:
-        """Continuation from a segment to one end of the path."""
-        segment, way = first, np.sign(goal - first.begin)
-        if first not in self.segments:
-            self.segments.append(first)
-        while way != 0.0 and len(self.segments) < _MOST:
-            beyond = self._stretched(segment, goal)
-            if beyond is None:
-                return
-            following = self._after(segment, beyond, goal)
-            if following is None:
-                return
-            edge = segment.end if way > 0.0 else segment.begin
-            if abs(following.begin - edge) > _BETWEEN_SEGMENTS * self.reach:
-                self._stretched(following, edge)
-            segment = following
-            self.segments.append(segment)
-
-    def _after(self, segment: StructureSegment, beyond: float, goal: float) -> StructureSegment | None:
-        """The segment on the other side of an event; None where the search there fails."""
-        way = np.sign(goal - beyond) or 1.0
-        edge = segment.end if way > 0.0 else segment.begin
-        near = self._active_set(segment, edge)
-        for share in (0.0, *_BEYOND):
-            t = beyond + way * share * self.reach
-            if (goal - t) * way < 0.0:
-                return None
-            optimum = polished(self.path.program(t), near, None)
-            begun = None if optimum is None else self.begun(t, optimum)
-            if begun is not None and (begun.structure.signature != segment.structure.signature or share == _BEYOND[-1]):
-                return begun
-        return segment_at(self.path, t, near)
-
-    @staticmethod
-    def _active_set(segment: StructureSegment, t: float) -> ActiveSet:
-        structure = segment.structure
-        state = States.unpacked(segment.rows[segment.t == t], structure)
-        return ActiveSet(
-            state.x[0],
-            structure.family,
-            state.u[0],
-            structure.sign,
-            structure.free,
-            state.weights[0],
-            state.equations[0],
-        )
-
-    def _stretched(self, segment: StructureSegment, goal: float) -> float | None:
-        """Continuation of a segment toward an end of the path as far as it holds; a t just beyond, or None."""
-        good, way = (segment.end, 1.0) if goal >= segment.end else (segment.begin, -1.0)
-        # laws of an affine structure are known at any distance
-        bad, stride = goal, self.reach if segment.structure.affine and self.path.one_cost else _FIRST * self.reach
-        broken: list[tuple[float, float]] = []
-        near = _EVENT_WIDTH * self.reach
-        for _ in range(_ROUNDS):
-            t = _probes(good, bad, way * stride, broken)
-            rows, sound, worst = self._solved(segment.structure, t, segment.guessed(t))
-            count = len(t) if sound.all() else int(np.argmin(sound))
-            if count:
-                segment.joined(t[:count], rows[:count])
-                stride = max(2.0 * abs(float(t[count - 1]) - good), stride / 4.0)
-                good = float(t[count - 1])
-            else:
-                stride = abs(float(t[0]) - good) / 4.0
-            if good == goal:
-                return None
-            known = [
-                (at, off) for at, off in zip(t[count:].tolist(), worst[count:].tolist(), strict=True) if not isnan(off)
-            ]
-            if known:
-                broken = sorted([*broken, *known], key=lambda pair: abs(pair[0] - good))[:_KNOWN]
-                bad = broken[0][0]
-            near = (_EVENT_WIDTH if broken else _LOST_EVENT_WIDTH) * self.reach
-            if min(abs(bad - good), stride) <= near:
-                if not broken or broken[0][1] <= _ASTRAY or not self._met(segment, bad):
-                    break
-                good, bad, broken = bad, goal, []
-                stride = _FIRST * self.reach
-                if good == goal:
-                    return None
-        return bad if abs(bad - good) <= near else good + way * near
-
-    def _met(self, segment: StructureSegment, t: float) -> bool:
-        """Whether a law of the segment exists at a nearby t; it is then stored."""
-        rows, sound, _ = self._solved(segment.structure, np.array([t]), segment.guessed(np.array([t])))
+    merged = optimum.merged(_SAME)
+    for candidate in (optimum,) if merged is optimum else (optimum, merged):
+        structure, order = structure_of(path.model, candidate)
+        u = _on_ends(structure, candidate.u[order])
+        state = (candidate.x, u, candidate.multipliers[order], candidate.equality_multipliers)
+        rows, sound = _solved(path, structure, np.array([t]), States(*(part[None] for part in state)))
         if sound[0]:
-            segment.joined(np.array([t]), rows)
-        return bool(sound[0])
-
-    def _solved(self, structure: Structure, t: Array, guess: States) -> tuple[Array, NDArray[np.bool_], Array]:
-        """States at some t, which of them are proven optimal, and what is most broken where Newton's method ends."""
-        numbers = self.path.numbers(t)
-        states, done = converged(structure, numbers, guess)
-        rows = states.packed
-        sound, worst = np.zeros(len(t), dtype=np.bool_), np.full(len(t), np.nan)
-        if done.any():
-            clipped_states = clipped(structure, states.taken(done))
-            verdicts = certification_of(self.path, structure, numbers.taken(done), clipped_states)
-            inside = np.abs(clipped_states.u - states.u[done]).max(axis=1, initial=0.0)
-            sound[done] = verdicts.sound & (inside <= VALUE_ROUNDING)
-            worst[done] = np.maximum(verdicts.broken, inside)
-        return rows, sound, worst
+            return StructureSegment(structure, np.array([t]), rows)
+    return None
 
 
 def _on_ends(structure: Structure, u: Array) -> Array:
@@ -276,38 +155,244 @@ def _on_ends(structure: Structure, u: Array) -> Array:
     return np.where(~structure.free & (np.abs(u - nearest) < AT_END), nearest, u)
 
 
-def _probes(good: float, bad: float, stride: float, broken: list[tuple[float, float]]) -> Array:
-    """Next parameters beyond a valid law: around the first violation, or some steps further on."""
-    probes = good + stride * _STRIDES
-    if len(broken) > 1:
-        near, event = broken[0][0], _event(broken)
-        if event is not None:
-            probes = np.concatenate([probes[:2], event + (near - event) * _CLOSER, event + (good - event) * _CLOSER])
-    elif len(broken) == 1:
-        probes = np.concatenate([probes, bad + (good - bad) * _CLOSER])
-    low, high = min(good, bad), max(good, bad)
-    inner = probes[(low < probes) & (probes < high)]
-    if not broken:
-        # nothing is known to be broken short of the end
-        inner = np.append(inner, bad) if abs(probes[-1] - good) >= abs(bad - good) else inner
-    elif not len(inner):
-        inner = np.array([(good + bad) / 2.0])
-    probes = np.unique(inner)
-    return probes if bad > good else probes[::-1]
+def _solved(path: Path, structure: Structure, t: Array, guess: States) -> tuple[Array, NDArray[np.bool_]]:
+    """States at some t to which Newton's method leads, and which of them are proven optimal."""
+    numbers = path.numbers(t)
+    states, done = converged(structure, numbers, guess)
+    sound = np.zeros(len(t), dtype=np.bool_)
+    if done.any():
+        inside = clipped(structure, states.taken(done))
+        certification = certification_of(path, structure, numbers.taken(done), inside)
+        moved = np.abs(inside.u - states.u[done]).max(axis=1, initial=0.0)
+        sound[done] = certification.sound & (moved <= VALUE_ROUNDING)
+    return states.packed, sound
 
 
-def _event(broken: list[tuple[float, float]]) -> float | None:
-    """The parameter at which a violation begins, by the polynomial through it; None if it does not grow."""
-    t, off = zip(*broken, strict=True)
-    count = len(off)
-    while count > 1 and not all(more > less > 0.0 for less, more in pairwise(off[:count])):
-        count -= 1
-    if count == 1:
+def _next_place(solved: NDArray[np.bool_], untried: NDArray[np.bool_]) -> int | None:
+    """An unsolved place beside a solved one, or beside few that were tried; of some where nothing is solved."""
+    if not solved.any():
+        starts = np.round(_STARTS * (len(solved) - 1)).astype(np.intp)
+        return next((place for place in starts.tolist() if untried[place]), None)
+    reached = solved.copy()
+    for _ in range(_PASSED):
+        beside = np.zeros(len(solved), dtype=np.bool_)
+        beside[1:] |= reached[:-1]
+        beside[:-1] |= reached[1:]
+        open_ones = np.flatnonzero(beside & ~solved & untried)
+        if len(open_ones):
+            return int(open_ones[0])
+        reached |= beside
+    return None
+
+
+def _open_ends(solved: NDArray[np.bool_], place: int) -> tuple[int, int]:
+    """The first and the last of the unsolved places about one of them."""
+    before, after = np.flatnonzero(solved[:place]), np.flatnonzero(solved[place:])
+    return int(before[-1]) + 1 if len(before) else 0, place + int(after[0]) - 1 if len(after) else len(solved) - 1
+
+
+def _last_place(path: Path, segment: StructureSegment, t: Array, place: int, end: int) -> int:
+    """The last place toward an end up to which laws of a segment are proven; some of their states join it."""
+    way, good, tried_beside = (1 if end >= place else -1), place, -1
+    beyond = end + way
+    while good != end:
+        left = abs(beyond - good) - 1
+        if not left:
+            # a law beyond may have been missed from afar
+            if tried_beside == beyond:
+                break
+            tried_beside, left = beyond, 1
+            beyond += way
+        places = good + way * np.unique(np.geomspace(1, left, _PROBES).round().astype(np.intp))
+        rows, sound = _solved(path, segment.structure, t[places], segment.interpolated(t[places]))
+        count = len(places) if sound.all() else int(np.argmin(sound))
+        if count:
+            segment.joined(t[places[:count]], rows[:count])
+            good = int(places[count - 1])
+        if count < len(places):
+            beyond = int(places[count])
+        elif tried_beside == good:
+            beyond = end + way
+    return good
+
+
+def _fill(laws: SolvedBatch, path: Path, segment: StructureSegment, t: Array, places: Places) -> None:
+    """Enter the laws of a segment at places between those at which some are known, in waves."""
+    structure = segment.structure
+    if len(places) and structure.affine and path.one_cost and segment.begin < segment.end:
+        _affine(laws, path, segment, places, t[places])
+        return
+    for stride in _WAVES:
+        if stride > 1 and len(places) < _PER_WAVE * stride:
+            continue
+        some = places[::stride][~laws.solved[places[::stride]]]
+        for i in range(0, len(some), _chunk(structure)):
+            these = some[i : i + _chunk(structure)]
+            _enter(laws, path, structure, these, (t[these], segment.interpolated(t[these])))
+        known = some[laws.solved[some]]
+        contacts = (laws.u[known, : structure.count], laws.multiplier[known, : structure.count])
+        segment.joined(t[known], np.concatenate([laws.x[known], *contacts, laws.equations[known]], axis=1))
+
+
+def _enter(target: SolvedBatch, path: Path, structure: Structure, places: Places, near: tuple[Array, States]) -> None:
+    """Add laws at some t, with nearby states, as far as they are proven."""
+    (t, guess), size = near, _chunk(structure)
+    for i in range(0, len(t), size):
+        some = slice(i, i + size)
+        laws = _LawsOfStructure(target, path, structure, places[some], path.numbers(t[some]))
+        laws.solve(guess.taken(some))
+
+
+def _chunk(structure: Structure) -> int:
+    """How many laws at a time: the conditions' matrices of more would not stay where they are at hand."""
+    program = structure.model.program
+    system = program.size + structure.count + len(program.equalities)
+    return int(np.clip(_AT_HAND // (8 * system**2), *_CHUNKS))
+
+
+@dataclass(frozen=True, eq=False)
+class _LawsOfStructure:
+    """Laws of one structure: where they are entered, and the numbers of their programs."""
+
+    optima: SolvedBatch
+    path: Path
+    structure: Structure
+    places: Places
+    numbers: Numbers
+
+    def solve(self, guess: States) -> None:
+        """Enter the laws that one step of Newton's method from a guess leads to, or several, as far as proven."""
+        states, sizes = step(self.structure, self.numbers, guess)
+        rough = np.flatnonzero(np.isfinite(sizes) & (sizes > _ROUGH_STEP))
+        if len(rough):
+            better, sizes[rough] = step(self.structure, self.numbers.taken(rough), states.taken(rough))
+            rows = states.packed
+            rows[rough] = better.packed
+            states = States.unpacked(rows, self.structure)
+        left = self.entered(states, np.flatnonzero(np.isfinite(sizes)), lambda certification: certification.sharp)
+        if len(left):
+            rest = replace(self, places=self.places[left], numbers=self.numbers.taken(left))
+            states, done = converged(self.structure, rest.numbers, guess.taken(left))
+            rest.entered(states, np.flatnonzero(done), lambda certification: certification.sound)
+
+    def entered(self, states: States, known: Places, proven: Callable[[Certification], NDArray[np.bool_]]) -> Places:
+        """Store the known states that are proven optimal, and return the problems that are left."""
+        left = np.ones(len(states), dtype=np.bool_)
+        if len(known):
+            solved = clipped(self.structure, states.taken(known))
+            certification = certification_of(self.path, self.structure, self.numbers.taken(known), solved)
+            sound = proven(certification)
+            values = (certification.objective[sound], certification.bound[sound], certification.excess[sound])
+            _put(self.optima, self.structure, self.places[known[sound]], solved.taken(sound), values)
+            left[known[sound]] = False
+        return np.flatnonzero(left)
+
+
+def _affine(laws: SolvedBatch, path: Path, segment: StructureSegment, places: Places, t: Array) -> None:
+    """Enter laws between the ends of a segment along which they are affine."""
+    structure = segment.structure
+    ends = States.unpacked(segment.rows[[0, -1]], structure)
+    numbers = path.numbers(np.array([segment.begin, segment.end]))
+    excess = float(certification_of(path, structure, numbers, ends).excess.max())
+    share = ((t - segment.begin) / (segment.end - segment.begin))[:, None]
+    first = ends.taken(slice(0, 1))
+    x = ends.x[0] + share * (ends.x[1] - ends.x[0])
+    value = structure.jets(first.x, first.u)[0]
+    value[:, :, :-1] -= structure.slack
+    numbers = path.numbers(t)
+    bound = lower_bounds(path, structure, numbers, first, value)
+    objective = path.model.unit * (x @ numbers.cost[0])
+    sound = np.abs(objective - bound) <= _CERTIFIED_GAP * np.maximum(np.abs(objective), AGREEMENT * path.model.unit)
+    end_parts = (np.broadcast_to(part, (len(t), part.shape[1])) for part in (first.u, first.weights, first.equations))
+    states = States(x, *end_parts).taken(sound)
+    _put(laws, structure, places[sound], states, (objective[sound], bound[sound], np.full(int(sound.sum()), excess)))
+
+
+def _put(
+    laws: SolvedBatch,
+    structure: Structure,
+    places: Places,
+    states: States,
+    proven: tuple[Array, Array, Array],
+) -> None:
+    count = structure.count
+    laws.x[places] = states.x
+    laws.family[places, :count] = structure.family
+    laws.u[places, :count] = states.u
+    laws.sign[places, :count] = structure.sign
+    laws.free[places, :count] = structure.free
+    laws.multiplier[places, :count] = np.maximum(states.weights, 0.0)
+    laws.equations[places] = states.equations
+    laws.objective[places], laws.bound[places], laws.excess[places] = proven
+
+
+def _in_own_bounds(laws: SolvedBatch, path: Path, t: Array) -> SolvedBatch:
+    """The same laws with the multipliers of their own programs, in which bounds are units."""
+    bounds = path.numbers(t).bounds
+    for i in path.measured:
+        laws.multiplier[:] = np.where(laws.family == i, laws.multiplier * bounds[:, i, None], laws.multiplier)
+    return laws
+
+
+def with_stored_structures(path: Path, t: Array, laws: SolvedBatch) -> NDArray[np.bool_]:
+    """A mask of laws with the contacts that are stored for them, from which no search led to a better law."""
+    alike = np.zeros(len(t), dtype=np.bool_)
+    known = _stored_along(path, t)
+    if known is None:
+        return alike
+    velocities = known.begin + t * (known.end - known.begin)
+    for stored in known.structures:
+        rows = np.flatnonzero((velocities >= stored.begin) & (velocities <= stored.end) & laws.solved)
+        count = stored.count
+        alone = (laws.family[rows, count:] == NO_CONTACT).all(axis=1)
+        pairs = ((laws.family, stored.family), (laws.sign, stored.sign), (laws.free, stored.free))
+        equal = [(values[rows, :count] == entry).all(axis=1) for values, entry in pairs if values.shape[1] >= count]
+        alike[rows] |= alone & np.logical_and.reduce(equal) if len(equal) == len(pairs) else False
+    return alike
+
+
+@dataclass(frozen=True, eq=False)
+class _StoredAlong:
+    """The structures that are stored for problems of a path, which differ in B, and the nearest one at each t."""
+
+    path: Path
+    begin: float  #: the B at t = 0
+    end: float  #: the B at t = 1
+    structures: tuple[StoredStructure, ...]
+    nearest: Places
+
+    def segment(self, i: int, t: Array) -> StructureSegment:
+        """One of the structures, with states at few of ascending t."""
+        path, stored = self.path, self.structures[i]
+        few = (t[0] + t[-1] - (t[-1] - t[0]) * chebyshev_nodes(_NEAR)) / 2.0
+        nodes = t if len(t) <= _NEAR else np.sort(few)
+        velocities = self.begin + nodes * (self.end - self.begin)
+        known = zip(nodes.tolist(), velocities.tolist(), strict=True)
+        rows = np.array([packed(guess_of(path.program(at), stored, B)) for at, B in known])
+        return StructureSegment(Structure(path.model, stored.family, stored.sign, stored.free), nodes, rows)
+
+
+def _stored_along(path: Path, t: Array) -> _StoredAlong | None:
+    """The structures that are stored for problems of a path; None where none are."""
+    first, last = path.problems
+    if not isinstance(first.B, float) or not isinstance(last.B, float):
         return None
-    shares = [prod(off[j] / (off[j] - off[i]) for j in range(count) if j != i) for i in range(count)]
-    return float(np.dot(t[:count], shares))
+    if first.shape != last.shape or not is_usual(path.model):
+        return None
+    structures = stored_structures(key_of(path.model) or "")
+    away = np.array([stored.away(first.B + t * (last.B - first.B)) for stored in structures])
+    return _StoredAlong(path, first.B, last.B, structures, np.argmin(away, axis=0))
 
 
-def gaps(segments: list[StructureSegment]) -> list[tuple[float, float]]:
-    """Stretches between segments in which no law is known."""
-    return [(segment.end, other.begin) for segment, other in pairwise(segments) if other.begin > segment.end]
+def _laws_of_stored_structures(path: Path, t: Array, known: _StoredAlong) -> SolvedBatch:
+    """The optima at ascending t, as far as structures that are stored lead to them."""
+    program, structures = path.model.program, known.structures
+    laws = SolvedBatch.none(len(t), program.size, max(stored.count for stored in structures), len(program.right))
+    for beside in (0, -1, 1):
+        left = ~laws.solved
+        for i in np.unique(known.nearest[left] + beside).tolist():
+            if 0 <= i < len(structures):
+                places = np.flatnonzero(left & (known.nearest + beside == i))
+                segment = known.segment(i, t[places])
+                _enter(laws, path, segment.structure, places, (t[places], segment.interpolated(t[places])))
+    return laws

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.synthesis.arrays.continued_laws import laws_along
+from optlaws.synthesis.arrays.continuation import laws_along
 from optlaws.synthesis.arrays.newton_steps import with_one
 from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
 from optlaws.synthesis.families.peaks import by_pieces, power_peaks

@@ -25,19 +25,17 @@ from optlaws import (
 )
 from optlaws.verification import verify
 from tests.bench.plain import Rows, highs
+from tests.internals.structure_table import segments_along
 from tests.internals.synthesis import (
     FormulaFamily,
     LawSearch,
-    ParametricContinuation,
     Path,
     SolvedBatch,
     States,
     StructureSegment,
-    _event,
     between,
     converged,
     laws_along,
-    laws_on,
     least_power,
     locally_optimal,
     model_of,
@@ -57,8 +55,17 @@ def path_of(degree: int) -> Path:
     return path
 
 
-def walked(path: Path) -> list[StructureSegment]:
-    return ParametricContinuation(path, 0.0, 1.0).whole(np.array([0.0]))
+def between_places(low: float = 0.0, high: float = 1.0) -> np.ndarray[Any, Any]:
+    """Places of a path, more than are taken from stored structures."""
+    return np.linspace(low, high, 2001)
+
+
+def changes(path: Path, low: float = 0.0, high: float = 1.0) -> list[float]:
+    """Where one structure gives way to the next, or both are the same but for rounding."""
+    segments = segments_along(path, between_places(low, high))
+    if len(segments) == 1 or high - low < 1e-8:
+        return [low]
+    return [place for one, other in pairwise(segments) for place in changes(path, one.end, other.begin)]
 
 
 def check(laws: SolutionArray, places: np.ndarray[Any, Any]) -> None:
@@ -75,27 +82,27 @@ def check(laws: SolutionArray, places: np.ndarray[Any, Any]) -> None:
 
 
 @pytest.mark.sample(3)
-@pytest.mark.parametrize(("degree", "changes"), [(5, 2), (9, 3), (19, 8)])
-def test_structures_follow_each_other_without_a_gap(degree: int, changes: int) -> None:
-    segments = walked(path_of(degree))
-    assert len(segments) == changes + 1
-    assert segments[0].begin == 0.0
-    assert segments[-1].end == pytest.approx(1.0, abs=1e-8)
+@pytest.mark.parametrize(("degree", "count"), [(5, 2), (9, 3), (19, 8)])
+def test_structures_follow_each_other_without_a_gap(degree: int, count: int) -> None:
+    t = between_places()
+    segments = segments_along(path_of(degree), t)
+    assert len(segments) == count + 1
+    assert (segments[0].begin, segments[-1].end) == (0.0, 1.0)
     for one, other in pairwise(segments):
         assert one.structure.signature != other.structure.signature
-        assert abs(other.begin - one.end) < 1e-7
+        assert other.begin - one.end == pytest.approx(t[1])
 
 
 def test_states_that_are_nearly_one_do_not_spoil_what_is_interpolated() -> None:
     path = path_of(9)
-    segment = max(walked(path), key=lambda one: one.end - one.begin)
+    segment = max(segments_along(path, between_places()), key=lambda one: one.end - one.begin)
     middle = (segment.begin + segment.end) / 2.0
     beside = np.asarray(middle + 1e-10 * np.arange(3), dtype=np.float64)
     states, done = converged(segment.structure, path.numbers(beside), segment.interpolated(beside))
     assert done.all()
     segment.joined(beside, np.asarray(states.packed + 1e-9 * np.arange(3)[:, None]))
     asked = np.array([middle + 1e-4])
-    exact, done = converged(segment.structure, path.numbers(asked), segment.guessed(asked))
+    exact, done = converged(segment.structure, path.numbers(asked), segment.interpolated(asked))
     assert done.all()
     np.testing.assert_allclose(segment.interpolated(asked).packed, exact.packed, rtol=1e-5, atol=1e-5)
 
@@ -112,35 +119,29 @@ def shortened(path: Path, segment: StructureSegment, begin: float, end: float) -
 
 
 def test_laws_between_segments_that_are_known_less_far_are_tried_with_both() -> None:
-    path = path_of(5)
-    first, second, *others = walked(path)
-    event, t = first.end, np.linspace(0.0, 1.0, 100)
-    beside = np.sort(np.append(t, event + 1e-4 * np.arange(-2.0, 3.0)))
-    known = laws_on(path, [first, second, *others], beside)
+    path, t = path_of(5), between_places()
+    first, second, *others = segments_along(path, t)
+    event = first.end
     less = [shortened(path, first, 0.0, event - 1e-3), shortened(path, second, event + 1e-3, second.end), *others]
-    laws = laws_on(path, less, beside)
+    known, laws = laws_along(path, t), laws_along(path, t, less)
     assert known.solved.all()
     assert laws.solved.all()
     np.testing.assert_allclose(laws.objective, known.objective, rtol=1e-12)
 
 
-def test_where_an_event_is_follows_from_what_is_broken_beyond_it() -> None:
-    assert _event([(1.2, 0.2), (1.5, 0.5)]) == pytest.approx(1.0)
-    curved = [(1.0 + off + off**2, off) for off in (0.1, 0.2, 0.4)]
-    assert _event(curved) == pytest.approx(1.0, abs=1e-12)
-    assert _event([(1.2, 0.2), (1.5, 0.1)]) is None
-    assert _event([(1.2, 0.2), (1.5, 0.5), (2.0, 0.3)]) == pytest.approx(1.0)
-
-
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("degree", [5, 9, pytest.param(19, marks=pytest.mark.long)])
 def test_laws_where_the_structure_changes_and_beside_it_are_those_solved_alone(degree: int) -> None:
-    edges = [segment.end for segment in walked(path_of(degree))[:-1]]
-    beside = np.concatenate([[0.0, 1.0], *(np.array(edges) + away for away in (-1e-6, -1e-9, 0.0, 1e-9, 1e-6))])
-    B = ENDS[0] + (ENDS[1] - ENDS[0]) * np.sort(np.concatenate([np.linspace(0.0, 1.0, 150), beside]))
-    laws = synthesize_array(ProblemArray(B=B, order=4, basis=Chebyshev(degree)))
+    edges = np.array(changes(path_of(degree)))
+    beside = np.concatenate([edges + away for away in (-1e-5, 1e-5)])
+    at = np.concatenate([edges + away for away in (-1e-9, 0.0, 1e-9)])
+    t = np.unique(np.concatenate([np.linspace(0.0, 1.0, 150), beside, at]))
+    laws = synthesize_array(ProblemArray(B=ENDS[0] + (ENDS[1] - ENDS[0]) * t, order=4, basis=Chebyshev(degree)))
     assert (laws.status == "optimal").all()
-    check(laws, np.flatnonzero(np.isin(np.arange(len(B)), np.searchsorted(B, ENDS[0] + 1.18 * np.array(edges)))))
+    check(laws, np.flatnonzero(np.isin(t, beside)))
+    # where both structures are those of the law but for rounding, its value alone is settled
+    for place in np.flatnonzero(np.isin(t, edges)).tolist():
+        assert laws.objective[place] == pytest.approx(synthesize(laws.problems.problem(place)).objective, rel=1e-9)
 
 
 KINDS: dict[str, dict[str, Any]] = {
@@ -378,12 +379,11 @@ def path_of_power(degree: int) -> Path:
 @pytest.mark.long
 def test_laws_of_least_power_where_their_structure_changes() -> None:
     path = path_of_power(9)
-    segments = ParametricContinuation(path, 0.0, 1.0).whole(np.array([0.5]))
-    edges = np.array([segment.end for segment in segments[:-1]])
+    edges = np.array(changes(path))
     assert len(edges) == 4
     beside = np.concatenate([edges + away for away in (-1e-6, 0.0, 1e-6)])
     t = np.sort(np.concatenate([np.linspace(0.0, 1.0, 40), beside]))
-    laws = laws_on(path, segments, t)
+    laws = laws_along(path, t)
     assert laws.solved.all()
     for row in np.flatnonzero(np.isin(t, edges)):
         alone = synthesize(Problem(order=4, basis=Chebyshev(9), B=float(1.42 + 1.18 * t[row]), minimise="D"))
@@ -416,7 +416,7 @@ def test_laws_between_two_that_agree_are_kept_and_no_others() -> None:
 
 def test_a_law_that_is_no_minimum_is_seen() -> None:
     path = path_of_power(5)
-    segments = ParametricContinuation(path, 0.0, 1.0).whole(np.array([0.5]))
+    segments = segments_along(path, between_places())
     assert {len(path.model.program.right) + one.structure.count for one in segments} == {3, 4}
     for segment in segments:
         states = States.unpacked(segment.rows, segment.structure)
