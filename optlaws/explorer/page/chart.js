@@ -1,13 +1,13 @@
 // A picture over two axes, in the layers of layers.js, with standard things that can be picked, and handles and bars that are
 // dragged, by the pointer or by arrow keys.
 //
-// A picture has {x, y, equal, margins, height, zones, lines, marks, labels, notes, picks, points, cursor, handles, told, of}. An axis is {name,
-// range, log, unit, ticks}; where `equal` is, both have one scale, with so many pixels of room around them, and no frame. `notes` stand in a
-// corner. A pick is {key, at, text, named}, whose key is written beside it where `named` says so and there is room. A point is a mark that moves,
-// `cursor` a line at a value of x. A handle is {key, at, along, low, high, step, label, text, name} and perhaps {from, up, anywhere, fixed}: a function of
-// where keys go from, whether it is rounded up, whether the whole picture drags it, whether nothing does. A bar is a handle {key, from, to,
-// low, high, label, text, title, short, name} over a part of both axes. `told` is the picture in words. All but points, cursor and handles are
-// drawn once for an object `of`.
+// A picture has {x, y, equal, bare, margins, height, zones, lines, marks, labels, notes, picks, points, cursor, handles, told, of}. An axis is
+// {name, range, log, unit, ticks}; where `equal` is, both have one scale, with so many pixels of room around them; there and where it is
+// `bare`, there is no frame. `notes` stand in a corner. A pick is {key, at, text, named}, whose key is written beside it where `named` says so and there
+// is room. A point is a mark that moves, `cursor` a line at a value of x. A handle is {key, at, along, low, high, step, label, text, name} and perhaps
+// {keys, from, up, anywhere, fixed}: how many steps an arrow key goes, a function of where keys go from, whether it is rounded up, whether
+// the whole picture drags it, whether nothing does. A bar is a handle {key, from, to, low, high, label, text, title, short, name} over a part
+// of both axes. `told` is the picture in words. All but points, cursor and handles are drawn once for an object `of`.
 
 import { drawLayers, drawMark, fitted, frame, marked, scaleBar, scaled, shortened, ticksIn } from "./layers.js";
 import { draggable, renew, setAttributes, sized, svg } from "./svg.js";
@@ -51,7 +51,7 @@ export function createChart(root, moved = () => {}, picked = () => {}) {
     const [width, room] = size();
     if (!shown) return drawing.remove();
     const height = shown.height ?? room;
-    if (width < 100 || height < 80) return;
+    if (width < 100 || height < (shown.height ?? 80)) return;
     if (drawing.parentNode !== root) root.append(drawing);
     const { points = [], cursor = null, handles = [], told = "", of = {} } = shown;
     const drawn = [of, width, height];
@@ -64,14 +64,14 @@ export function createChart(root, moved = () => {}, picked = () => {}) {
   }
 
   function ground(width, height) {
-    const { x, y, equal, picks = [], notes = [], margins = equal === undefined ? MARGINS : NONE } = shown;
+    const { x, y, equal, bare = false, picks = [], notes = [], margins = equal === undefined ? MARGINS : NONE } = shown;
     box = { left: margins.left, right: width - margins.right, top: margins.top, bottom: height - margins.bottom };
     [toX, toY] = equal === undefined ? [scaled(x, [box.left, box.right]), scaled(y, [box.bottom, box.top])] : fitted(x.range, y.range, box, equal);
     setAttributes(drawing, { width, height });
     const { ground, room } = drawLayers(shown, { box, toX, toY, name: root.id, beside: picks });
     const xs = x.unit ? ticksIn(x.unit, x.range, 8) : marked(x, 7, toX);
     back.replaceChildren(
-      ...(equal === undefined ? [frame(box, toX, toY, { xs, ys: y.ticks ?? marked(y, 5, toY), xname: x.name, yname: y.name, unit: x.unit })] : []),
+      ...(equal === undefined && !bare ? [frame(box, toX, toY, { xs, ys: y.ticks ?? marked(y, 5, toY), xname: x.name, yname: y.name, unit: x.unit })] : []),
       ...ground,
       ...notes.map((text, i) => svg("text", { x: 4, y: NOTE * (i + 1), text })),
       ...(x.ruler ? scaleBar(box, toX) : []),
@@ -215,7 +215,7 @@ export function createChart(root, moved = () => {}, picked = () => {}) {
       else moveTo(handle, handle.at.map((one, i) => one + sign[i] * handle.step[i] * times));
     } else if (event.key === "Home") moveTo(handle, handle.low);
     else if (event.key === "End") moveTo(handle, handle.high);
-    else if (sign) moveTo(handle, (handle.from?.() ?? handle.at[handle.along === "x" ? 0 : 1]) + (sign[0] + sign[1]) * handle.step * 10 * times);
+    else if (sign) moveTo(handle, (handle.from?.() ?? handle.at[handle.along === "x" ? 0 : 1]) + (sign[0] + sign[1]) * handle.step * (handle.keys ?? 10) * times);
     else return;
     event.preventDefault();
   }

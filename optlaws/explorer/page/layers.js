@@ -1,10 +1,10 @@
 // What all pictures are drawn of, in layers over two axes: zones, lines, marks, and what is written beside them.
 //
-// A zone is {from, to, low, high, name, title}, of x and of y, without low or high as high as the picture; a line {points, name, title,
+// A zone is {from, to, low, high, name, title, onclick}, of x and of y, without low or high as high as the picture; a line {points, name, title,
 // closed, dots, head, within}: `name` are its classes, null among its points breaks it, `dots` are points alone, `head` makes an arrow of it, `within` are zones
 // outside which it is not drawn. A mark is {at, name, title, r, size, sides, glyph, text, above}: a circle of r pixels or of a size in units of x,
 // a rectangle of sides in pixels at least, or a path from its place; `text` is written beside it where there is room, and is its title elsewhere. A label is {at, text, name,
-// anchor, up, aside, wide, title} with the pixels that must be free on its left, or `free`, so that it stands where there is room.
+// anchor, up, aside, wide, within, title} with the pixels that must be free on its left and the part of x that it must fit in, or `free`, so that it stands where there is room.
 // Lines may stand among marks, where one lies over the other.
 
 import { path, svg } from "./svg.js";
@@ -154,9 +154,9 @@ export function drawLayers({ zones = [], lines = [], marks = [], labels = [] }, 
   const room = createRoom(box, [...marks.filter(({ at }) => at), ...beside].map(({ at }) => placeOf(at)));
   const draw = (one) => ("points" in one ? drawLine(one, { name, placeOf, zone }) : drawMark(one, placeOf, toX(1) - toX(0)));
 
-  function zone({ from, to, low = -Infinity, high = Infinity, name = null, title }) {
+  function zone({ from, to, low = -Infinity, high = Infinity, name = null, title, onclick }) {
     const [top, bottom] = [Math.max(box.top, toY(high)), Math.min(box.bottom, toY(low))];
-    return bottom > top ? svg("rect", { class: name, x: toX(from), width: toX(to) - toX(from), y: top, height: bottom - top }, titled(title)) : null;
+    return bottom > top ? svg("rect", { class: name, x: toX(from), width: toX(to) - toX(from), y: top, height: bottom - top, onclick }, titled(title)) : null;
   }
 
   /** A label stands above its place, below it where there is no room; `aside` is how far it stands on its side. */
@@ -168,7 +168,7 @@ export function drawLayers({ zones = [], lines = [], marks = [], labels = [] }, 
 
   const plain = marks.filter(({ text }) => text === undefined);
   const read = marks.filter(({ text }) => text !== undefined).map((mark) => svg("g", { class: mark.name }, drawMark({ ...mark, name: null }, placeOf), room(placeOf(mark.at), mark.text, mark) ?? titled(mark.text)));
-  const written = labels.filter(({ at, wide = 0 }) => !wide || toX(at[0]) - wide >= box.left).map((one) => (one.free ? room(placeOf(one.at), one.text, one) : drawLabel(one)));
+  const written = labels.filter(({ at, wide = 0, within, text }) => (!wide || toX(at[0]) - wide >= box.left) && (within === undefined || toX(within) - toX(0) > LETTER * text.length)).map((one) => (one.free ? room(placeOf(one.at), one.text, one) : drawLabel(one)));
   return {
     ground: [
       svg("clipPath", { id: `inside-${name}` }, svg("rect", { x: box.left, y: box.top, width: Math.max(1, box.right - box.left), height: Math.max(1, box.bottom - box.top) })),

@@ -8,8 +8,9 @@
 //
 // Wheel, drag, + and - zoom and move; arrow keys move the cursor from place to place, Page keys from peak to peak.
 
+import { createChart } from "./chart.js";
 import { drawLayers, frame, label, scale, ticks, ticksIn } from "./layers.js";
-import { button, draggable, html, setAttributes, sized, svg } from "./svg.js";
+import { button, html, sized, svg } from "./svg.js";
 import { number, panelsInUnits, variableOf } from "./units.js";
 
 /** A place along the variable of pictures that are read together: it follows the pointer, and stays where it was put. */
@@ -394,60 +395,27 @@ function beyond(panel, segments, i) {
   return segments.filter(({ peaks }) => peaks?.[i - 1]?.beyond).map(({ at }) => at);
 }
 
-const NARROW = 7; // pixels a letter of a name takes
+const STRIP = { left: BOX.left, right: BOX.right, top: 0, bottom: 0 };
 
-/** `moved(i, at)` asks for the end of segment i at a place, where ends can be moved; `chosen(i)` is a click on a bar. */
-export function createStrip({ moved = null, rested = () => {}, chosen, step: stepSize = 1 }) {
+/** The segments as bars above curves: `moved(i, at)` asks for the end of segment i at a place, where ends can be moved; `chosen(i)` is a click
+    on a bar. */
+export function createStrip({ moved = null, rested = () => {}, chosen = () => {}, step = 1 }) {
   const element = html("div", { class: "strip", role: "group", "aria-label": "Segments of the motion" });
-  let joints = [];
-  let toX = null;
-  let last = null;
-  let shown = null;
-  const size = sized(element, () => shown && show(...shown));
+  const chart = createChart(element, (key, at) => (at === null ? rested() : moved(Number(key), at)));
 
   function show({ segments = [], range, unit }, span) {
-    shown = [{ segments, range, unit }, span];
-    const [width] = size();
-    toX = scale(span, [BOX.left, width - BOX.right]);
-    const x = (value) => Math.min(width - BOX.right, Math.max(BOX.left, toX(value)));
-    const names = JSON.stringify(segments.map(({ name }) => name));
-    if (names !== last) build(segments);
-    last = names;
-    [...element.querySelectorAll(".bar")].forEach((bar, i) => {
-      const [from, to] = segments[i].at.map(x);
-      Object.assign(bar.style, { left: `${from}px`, width: `${to - from}px` });
-      bar.firstElementChild.hidden = to - from < NARROW * segments[i].name.length;
-      bar.title = `${segments[i].name}: ${number(segments[i].at[0], unit)} to ${number(segments[i].at[1], unit)}`;
+    const place = (at) => number(at, unit);
+    const joint = ({ name, at: [low, at] }, i) => ({
+      key: String(i), at: [at, 0.5], along: "x", low: low + step, high: (segments[i + 1]?.at[1] ?? range[1]) - step, step, keys: 1,
+      label: `Where ${name} ends and ${segments[i + 1]?.name} begins`, text: place(at), name: "law-0 joint-handle",
     });
-    joints.forEach((joint, i) => {
-      const at = segments[i].at[1];
-      joint.hidden = at < span[0] || at > span[1];
-      joint.style.left = `${x(at)}px`;
-      setAttributes(joint, { "aria-valuemin": segments[i].at[0], "aria-valuemax": segments[i + 1]?.at[1] ?? range[1], "aria-valuenow": at, "aria-valuetext": number(at, unit) });
+    chart.show({
+      x: { range: span }, y: { range: [0, 1] }, margins: STRIP, height: 24, bare: true,
+      zones: segments.map(({ name, at: [from, to] }, i) => ({ from, to, name: "bar", title: `${name}: ${place(from)} to ${place(to)}`, onclick: () => chosen(i) })),
+      labels: segments.map(({ name, at: [from, to] }) => ({ at: [(Math.max(from, span[0]) + Math.min(to, span[1])) / 2, 0.5], up: -4, anchor: "middle", text: name, name: "name", within: to - from })),
+      handles: moved ? segments.slice(0, -1).map(joint).filter(({ at: [at] }) => at >= span[0] && at <= span[1]) : [],
+      told: segments.map(({ name, at: [from, to] }) => `${name} ${place(from)} to ${place(to)}`).join("; "),
     });
-  }
-
-  function build(segments) {
-    const bars = segments.map(({ name }, i) => button(undefined, () => chosen(i), { class: "bar", tabindex: "-1" }, html("span", { text: name })));
-    joints = moved ? segments.slice(0, -1).map(({ name }, i) => joint(name, segments[i + 1].name, i)) : [];
-    element.replaceChildren(...bars, ...joints);
-  }
-
-  function joint(before, after, i) {
-    const joint = html("div", { class: "joint-handle", role: "slider", tabindex: "0", "aria-label": `Where ${before} ends and ${after} begins` });
-    const to = (at) => {
-      const [least, most] = ["aria-valuemin", "aria-valuemax"].map((name) => Number(joint.getAttribute(name)));
-      const round = Number((Math.round(at / stepSize) * stepSize).toPrecision(9));
-      moved(i, Math.min(most - stepSize, Math.max(least + stepSize, round)));
-    };
-    draggable(joint, () => joint.focus() ?? i, (_, event) => to(toX.back(event.clientX - element.getBoundingClientRect().left)), () => rested());
-    joint.addEventListener("keydown", (event) => {
-      const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10 }[event.key];
-      if (!step) return;
-      event.preventDefault();
-      to(Number(joint.getAttribute("aria-valuenow")) + step * stepSize);
-    });
-    return joint;
   }
 
   return { element, show };
