@@ -70,10 +70,7 @@ function createAxisNames(root, study, kinds) {
       else field.value = name;
     });
     const choose = html("input", { type: "radio", name: "axis-of-programme", checked: chosen, "aria-label": `segments of axis ${i + 1}`, title: "its segments stand below", onchange: () => change("axis", (state) => (state.axis = i)) });
-    const remove = button("×", () => change(`remove axis ${i}`, (state) => {
-      removeAxis(state.machine, i);
-      state.axis = Math.min(state.axis > i ? state.axis - 1 : state.axis, state.machine.axis.length - 1);
-    }), { class: "close", disabled: names.length < 2, "aria-label": `Remove axis ${i + 1}`, title: "Remove this axis, and its interlocks" });
+    const remove = button("×", () => change(`remove axis ${i}`, (state) => removeAxis(state, i, kinds)), { class: "close", disabled: names.length < 2, "aria-label": `Remove axis ${i + 1}`, title: "Remove this axis, and its interlocks" });
     return html("div", { class: "axis-name" }, choose, field, remove);
   }
 
@@ -90,17 +87,19 @@ function createAxisNames(root, study, kinds) {
     if (overlap?.of) overlap.of = overlap.of.map((name) => (name === was ? now : name));
   }
 
-  /** Take an axis away, with the interlocks and the goal that are of it. */
-  function removeAxis(machine, i) {
-    const [{ name }] = machine.axis.splice(i, 1);
-    if (machine.interlocks) machine.interlocks = machine.interlocks.filter((rule) => rule.axis !== name && rule[otherOf(kinds, rule.kind)] !== name);
-    if (!machine.interlocks?.length) delete machine.interlocks;
-    if (!machine.overlap?.of) return;
-    machine.overlap.of = machine.overlap.of.filter((one) => one !== name);
-    if (!machine.overlap.of.length) delete machine.overlap;
-  }
-
   return { show };
+}
+
+/** Take an axis away, with the interlocks and the goal that are of it; `kinds` are the declared entries of interlocks. */
+export function removeAxis(state, i, kinds) {
+  const { machine } = state;
+  const [{ name }] = machine.axis.splice(i, 1);
+  if (machine.interlocks) machine.interlocks = machine.interlocks.filter((rule) => rule.axis !== name && rule[otherOf(kinds, rule.kind)] !== name);
+  if (!machine.interlocks?.length) delete machine.interlocks;
+  state.axis = Math.min(state.axis > i ? state.axis - 1 : state.axis, machine.axis.length - 1);
+  if (!machine.overlap?.of) return;
+  machine.overlap.of = machine.overlap.of.filter((one) => one !== name);
+  if (!machine.overlap.of.length) delete machine.overlap;
 }
 
 /** The axes of the same machine: those that have the mechanism and the drive of one. */

@@ -5,7 +5,7 @@ import { createChart } from "../chart.js";
 import { Latest } from "../latest.js";
 import { spanOf } from "../layers.js";
 import { column, growing, head, laidOut, panel, part, picture, status, swatch, tabs } from "../layout.js";
-import { beside, changeAll } from "../machine_forms.js";
+import { beside, changeAll, removeAxis } from "../machine_forms.js";
 import { createMechanism } from "../mechanism.js";
 import { createPanels, createRun, createStrip } from "../panels.js";
 import { showTrust, table } from "../report.js";
@@ -23,7 +23,7 @@ const SPAN = 3; // ratios from a third of the present one to three times it
 const NEAR = 1.2;
 const MOVES = ["rise", "return", "move"];
 
-export function createView(root, study) {
+export function createView(root, study, { programme }) {
   const files = ["python", "problem", "table"];
   let stateShown = null;
   let current = null;
@@ -168,17 +168,10 @@ export function createView(root, study) {
     const laws = beside(machine, axis).slice(0, MOST);
     const places = laws.map((law) => machine.axis.indexOf(law));
     const titles = laws.map(({ name }, i) => (current?.laws?.[i]?.refused ? `${name} (${current.laws[i].refused.word})` : name));
-    const shown = chips(titles, places.indexOf(axis), (i) => study.change("axis", (next) => (next.axis = places[i])), (i) => remove(places[i]));
+    const shown = chips(titles, places.indexOf(axis), (i) => study.change("axis", (next) => (next.axis = places[i])), (i) => study.change(`remove axis ${i}`, (next) => removeAxis(next, places[i], programme.interlocks)));
     const others = machine.axis.map((one, i) => [one, i]).filter(([one]) => !beside(machine, axis).includes(one)).map(([one, i]) => button(one.name, () => study.change("axis", (next) => (next.axis = i)), { class: "quiet-button", title: "Another machine of this study" }));
     const full = laws.length >= MOST || machine.axis.length >= MOST_AXES;
     renew(at.tray, ...shown, ...(full ? [] : adding()), ...others);
-  }
-
-  function remove(at) {
-    study.change(`remove axis ${at}`, ({ machine }) => machine.axis.splice(at, 1));
-    study.change(`remove axis ${at}`, (state) => {
-      if (state.axis >= at && state.axis > 0) state.axis -= 1;
-    });
   }
 
   function adding() {
