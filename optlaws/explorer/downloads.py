@@ -84,7 +84,7 @@ def _read(question: FileRequest) -> tuple[ViewFiles, Any]:
 
 def _stem(name: str) -> str:
     """A file's name of a title: no folder, no line break."""
-    return "_".join(re.findall(r"[A-Za-z0-9.]+", name))[:60].strip("._") or "law"
+    return "_".join(re.findall(r"[^\W_]+[\w.]*", name))[:60].strip("._") or "law"
 
 
 def _json(name: str, **entries: Any) -> File:

@@ -150,6 +150,10 @@ def test_a_law_is_read_in_the_units_of_its_machine(page: Page, served: Server) -
 def test_a_report_has_the_name_and_the_notes_of_the_document(page: Page, served: Server) -> None:
     go(page, served.link(laws=[OPTIMAL], view="cycle", name="Feeder", notes="first shift"))
     report = saves(page, "report")
+    page.get_by_text("Save", exact=True).click()
+    with page.expect_download() as download:
+        page.locator("[data-kind=table]").click()
+    assert download.value.suggested_filename == "Feeder.csv"
     for text in ("<h1>Feeder</h1>", "<p>first shift</p>", f"<p>optlaws {__version__}</p>", "616"):
         assert text in report
 

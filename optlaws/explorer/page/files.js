@@ -34,11 +34,12 @@ export function savings(view) {
 /** What a file of the document is called. */
 const named = (state) => titled(state).replace(/[^\p{L}\p{N}.]+/gu, "_").replace(/^[_.]+|[_.]+$/g, "") || "optlaws";
 
-/** Save a file of a view in a state. */
+/** Save a file of a view in a state, under the name of the document where it has one. */
 export async function save(kind, view, state) {
   if (kind === "picture") return download({ name: `${named(state)}.svg`, type: "image/svg+xml", text: picture(view.drawings) });
   if (kind === "document") return download({ name: `${named(state)}.json`, type: "application/json", text: JSON.stringify({ about: DOCUMENT, state }, null, 1) });
-  return download(await fileOf(kind, view, state));
+  const file = await fileOf(kind, view, state);
+  return download(state.name ? { ...file, name: `${named(state)}${/\.\w+$/.exec(file.name)[0]}` } : file);
 }
 
 /** A file of a view in a state: its name, its type, its text. */
