@@ -30,12 +30,6 @@ function valueOf(text) {
   return parts.length > 1 ? parts.map(parsed) : parsed(text.trim());
 }
 
-/** The paths of all that fields can hold: ["bodies", "crank"]. */
-export function flat(value, path = []) {
-  if (object(value) && !places(value)) return Object.entries(value).flatMap(([name, part]) => flat(part, [...path, name]));
-  return textOf(value) === null ? [] : [path];
-}
-
 /** Put a text at a path; a blank one takes the entry away, and what is then empty with it. */
 function put(table, [name, ...rest], text, isText = false) {
   if (rest.length === 0) {

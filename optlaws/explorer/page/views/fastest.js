@@ -2,7 +2,7 @@
 // on, and the front of what is least in it, in the middle; on the right the motion, drawn by the limit that is nearest.
 
 import { createChart } from "../chart.js";
-import { choice, createForm, flat } from "../form.js";
+import { choice, createForm } from "../form.js";
 import { Latest } from "../latest.js";
 import { spanOf } from "../layers.js";
 import { column, group, growing, head, laidOut, panel, part, picture, status } from "../layout.js";
@@ -16,11 +16,9 @@ import { same } from "../views.js";
 const OWN = ["stroke", "start_velocity", "end_velocity", "start"];
 const LONGEST = 2; // times the least, where a front has no end of its own
 const FINEST = 1e-4; // s
-export function createView(root, study, { move, space, examples }) {
+export function createView(root, study, { move, space, examples, mechanisms, drive }) {
   const files = ["problem", "proof"];
   let stateShown = null;
-  let shownShape = "";
-  let paths = [];
   let current = null;
   let frontShown = null;
   let asked = null;
@@ -88,14 +86,12 @@ export function createView(root, study, { move, space, examples }) {
   }
 
   function showForm(moves, move) {
-    const machine = flat({ mechanism: move.mechanism ?? {}, drive: move.drive ?? {} }).map((path) => JSON.stringify(path));
-    // a field that is emptied stays until the move is another one
-    const shape = JSON.stringify([moves.move.map(({ name }) => name), Boolean(move.drive), numberOf(stateShown)]);
-    if (shape !== shownShape || machine.some((path) => !paths.includes(path))) [shownShape, paths] = [shape, machine];
-    fieldsForm.draw(at.form, [shape, paths], { ...move, problem: moves.problem ?? {} }, () => build(moves, move, paths.map((path) => JSON.parse(path))));
+    const { mechanism, drive, follower } = move;
+    const shape = [moves.move.map(({ name }) => name), mechanism?.kind, Boolean(drive), Boolean(drive?.motor), Boolean(follower), numberOf(stateShown)];
+    fieldsForm.draw(at.form, shape, { ...move, problem: moves.problem ?? {} }, () => build(moves, move));
   }
 
-  function build(moves, move, machine) {
+  function build(moves, move) {
     const several = choice("move", { ...moves.move.map(({ name }) => name) }, numberOf(stateShown), (i) => study.change("move", (state) => {
       state.move = Number(i);
       delete state.time;
@@ -103,12 +99,13 @@ export function createView(root, study, { move, space, examples }) {
     const { limits, follower, front } = declared;
     const limited = limits.entries.filter(({ name }) => (!name.includes("torque") || move.drive) && (!name.startsWith("residual") || move.follower));
     const fields = (entry, entries = entry.entries) => fieldsForm.fields(entries, [entry.name], []);
-    const of = (part) => machine.filter(([first]) => first === part).map((path) => fieldsForm.field({ path, placeholder: "", label: path.slice(1).join(" ").replaceAll("_", " ") }));
+    const driven = drive.filter(({ name }) => name !== "motor" || move.drive?.motor);
     return [
       group("Move", several, ...fieldsForm.fields(OWN.map((name) => declared[name]))),
       group("At most", ...fields(limits, limited)),
       group("Laws", ...fieldsForm.fields(space, ["problem"], [])),
-      ...(machine.length ? [group("Mechanism", ...of("mechanism")), group("Drive", ...of("drive"))] : []),
+      ...(move.mechanism ? [group("Mechanism", ...fieldsForm.fields(mechanisms[move.mechanism.kind]?.fields ?? [], ["mechanism"], []))] : []),
+      ...(move.drive ? [group("Drive", ...fieldsForm.fields(driven, ["drive"], []))] : []),
       group("What vibrates", ...fields(follower)),
       group("Front", ...fields(front, front.entries.filter(({ name }) => name === "longest"))),
     ];
