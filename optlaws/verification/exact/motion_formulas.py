@@ -160,8 +160,8 @@ def _differentiated(row: list[float], off: Formula, nu: int) -> Formula:
     return added(terms)
 
 
-#: binary places of an integral that count: more than a float has
-_BITS = 80
+#: binary places of an integral that count: more than a float has, and no more than that, for each costs cells and terms
+_BITS = 60
 #: where on a stretch the formulas are compared, as shares of it
 _WITHIN = (0.4, 0.5, 0.75)
 

@@ -12,7 +12,8 @@ from optlaws import Chebyshev, Problem, integral, peak, smoothstep, synthesize
 from optlaws.verification import verify
 from tests.formulas.mpmath_numbers import MPMATH
 from tests.internals.formulas import Formula, Table, evaluate, horner, of_text, pieces
-from tests.internals.verification import ExactLaw, exact_limit
+from tests.internals.synthesis import evaluate as value_in_doubles
+from tests.internals.verification import ExactLaw, enclosed, exact_limit
 from tests.sampling import sampled
 from tests.verification.tampering import overstated
 
@@ -126,3 +127,12 @@ def test_what_is_overstated_is_refused(minimise: str) -> None:
 def test_a_peak_below_0_lets_no_limit_of_c_stand_for_the_sum() -> None:
     assert exact_limit(Problem(order=3, minimise='C + peak("b", side=high)')) == 4
     assert exact_limit(Problem(order=3, minimise='C + peak("b - 20", side=high)')) is None
+
+
+def test_an_integral_is_enclosed_to_the_last_digits_of_a_float() -> None:
+    """Tables over the displacement have corners that no law places: cells are cut there until they hardly matter."""
+    load = "table(a, 0:0, 0.2:0, 0.3:-2, 0.5:-2, 0.6:0, 1:0)"
+    law, problem = smoothstep(3), Problem(order=3, minimise=f"integral((c + {load})^2)", symmetric=False)
+    low, high = enclosed(ExactLaw(law).sum(problem.objective))
+    assert 0.0 <= high - low <= 8.0 * 2.0**-52 * high
+    assert low * (1.0 - 1e-10) <= value_in_doubles(problem, law).objective <= high * (1.0 + 1e-10)
