@@ -141,7 +141,8 @@ class LawSearch:
         return limit is not None and law.objective <= limit.value * (1.0 + _NEAR_LIMIT)
 
     def _try(self, warm: ActiveSet | None, point: Array | None) -> Candidate | None:
-        outcome, candidate = attempt(self.model, warm, point, method=self.method)
+        known = self.candidates[0].objective if self.candidates else inf
+        outcome, candidate = attempt(self.model, warm, point, method=self.method, known=known)
         self.outcomes.append(outcome)
         if candidate is not None:
             self.candidates = sorted([*self.candidates, candidate], key=lambda law: law.objective)
@@ -375,9 +376,15 @@ def _agree(first: Candidate | None, last: Candidate | None) -> bool:
 
 
 def attempt(
-    model: Model, warm: ActiveSet | None, point: Array | None, *, rounds: int = ROUNDS, method: Method = "auto"
+    model: Model,
+    warm: ActiveSet | None,
+    point: Array | None,
+    *,
+    rounds: int = ROUNDS,
+    method: Method = "auto",
+    known: float = inf,
 ) -> tuple[Outcome, Candidate | None]:
-    """The local optimum reached from a neighbour's optimum or a start."""
+    """The local optimum reached from a neighbour's optimum or a start; none where a known objective is less."""
     claim, laws = model.program.objective * model.unit, _Laws(model)
 
     def holds(x: Array) -> bool:
@@ -388,9 +395,12 @@ def attempt(
         # a constant that is minimised is a variable, which may have to be above the law's own
         return exact and not shortfalls(model.problem, law)
 
+    def worse(x: Array) -> bool:
+        return float(claim @ x) > known * (1.0 + AGREEMENT)
+
     if method == IPOPT and warm is not None:
         point, warm = warm.x, None
-    outcome = solve(model.program, warm, start=point, holds=holds, rounds=rounds, method=method)
+    outcome = solve(model.program, warm, start=point, holds=holds, rounds=rounds, method=method, worse=worse)
     led = outcome.tried if outcome.optimum is None else (outcome.optimum,)
     candidates = (laws.candidate(state.at(on_equations(model.program, state.x))) for state in led)
     return outcome, min((law for law in candidates if law is not None), key=lambda law: law.objective, default=None)

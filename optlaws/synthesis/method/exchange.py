@@ -45,11 +45,14 @@ ROUNDS = 40
 _CURVED_ROUNDS = 14
 #: rounds after the one whose answer exceeded least: what they leave is the solver's own tolerance
 _PATIENCE = 5
+#: rounds after which an answer on points tells whether a start leads to a better law: more points only cost more
+_SETTLED_BY = 4
 #: by how much the room of a start exceeds what its base law needs
 _AMPLE = 1.2
 #: places of an integral in a linear program that shows its kinks, and in one more where that does not
 _PLACES = (160, 640)
 _CONTINUED = "continued from a neighbour"
+_WORSE = "no better than a law that is known, on few points already"
 _STALLED = "and what answers exceed between the points falls no more"
 
 
@@ -88,6 +91,7 @@ class _Options:
     holds: Callable[[Array], bool] | None
     rounds: int
     method: Method
+    worse: Callable[[Array], bool] | None = None
 
 
 def solve(
@@ -98,17 +102,19 @@ def solve(
     holds: Callable[[Array], bool] | None = None,
     rounds: int = ROUNDS,
     method: Method = "auto",
+    worse: Callable[[Array], bool] | None = None,
 ) -> Outcome:
     """Solve a semi-infinite program; a neighbour's optimum as `warm` is tried first, and the solver begins at `start`.
 
-    `holds` may decide from x alone, and more quickly than the families do, whether every constraint holds. Of very many
-    families those that bind are found by exchange: a law that none of the others excludes is the optimum of all.
+    `holds` may decide from x alone, and more quickly than the families do, whether every constraint holds, and `worse`
+    whether a law that is known is better than any that it may lead to. Of very many families those that bind are found
+    by exchange: a law that none of the others excludes is the optimum of all.
     """
     few = binding_few(program)
     if few is None:
-        return _in_units(program, warm, _Options(start, holds, rounds, method))
+        return _in_units(program, warm, _Options(start, holds, rounds, method, worse))
     while True:
-        outcome = _in_units(few.program, few.inward(warm), _Options(start, None, rounds, method))
+        outcome = _in_units(few.program, few.inward(warm), _Options(start, None, rounds, method, worse))
         warm = None if outcome.optimum is None else few.outward(outcome.optimum)
         more = None if warm is None else few.joined_beyond(warm.x)
         if more is None:
@@ -121,11 +127,12 @@ def _in_units(program: Program, warm: ActiveSet | None, options: _Options) -> Ou
     units = units_of(program)
     if units is None:
         return _in_own_units(program, warm, options)
-    start, holds = options.start, options.holds
+    start, holds, worse = options.start, options.holds, options.worse
     within = replace(
         options,
         start=None if start is None else start / units.variables,
         holds=None if holds is None else lambda x: holds(x * units.variables),
+        worse=None if worse is None else lambda x: worse(x * units.variables),
     )
     return _in_own_units(units.program, None if warm is None else units.inward(warm), within).mapped(units.outward)
 
@@ -166,7 +173,7 @@ class _Exchange:
     def __init__(self, program: Program, options: _Options) -> None:
         self.program, self.options = program, options
         self.convex = all(map(of_cones, program.families))
-        self.rounds = options.rounds if self.convex and options.method != IPOPT else min(options.rounds, _CURVED_ROUNDS)
+        self.rounds = options.rounds if options.method != IPOPT else min(options.rounds, _CURVED_ROUNDS)
         self.points = first_points(program)
         self.start = options.start
         if self.start is None and program.curved:
@@ -207,6 +214,9 @@ class _Exchange:
         if excess <= EXCESS and answer.success:
             # the optimum may be so flat that no exact contacts show: those on the points are then an answer
             return as_answered(self.points, answer), False
+        if self.count >= _SETTLED_BY and self.options.worse is not None and self.options.worse(self.x):
+            self.status, self.tried = _WORSE, []
+            return None, False
         if excess < self.least:
             self.least, self.least_at = excess, self.count
         if self.count > self.least_at + _PATIENCE:

@@ -7,7 +7,17 @@ import numpy as np
 import pytest
 
 from optlaws import BoundaryConditions, BSplines, Chebyshev, Pieces, Problem, Window, at_most, between, synthesize
-from tests.internals.synthesis import ActiveSet, Answer, Program, exchange, model_of
+from tests.internals.synthesis import (
+    ActiveSet,
+    Answer,
+    Points,
+    Program,
+    conic_optimum,
+    exchange,
+    model_of,
+    quadratic_steps,
+    stepwise_on_points,
+)
 
 
 def test_a_flat_optimum_of_pieces_is_the_answer_on_its_points() -> None:
@@ -72,3 +82,51 @@ def test_contacts_on_both_sides_of_a_break_stay_two() -> None:
     merged = state.merged(1e-6)
     assert merged.u[1:].tolist() == list(sides)
     assert len(merged.u) == 3
+
+
+def test_of_thousands_of_rows_few_are_given_to_the_solver_of_a_quadratic_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Those that its answer exceeds join them, so that the step is that of all rows."""
+    problem = Problem(order=3, basis=Chebyshev(9), minimise="peak((1 + 0.5*sin(6*a))*c + 3*b^2)", symmetric=False)
+    model = model_of(problem)
+    many = [
+        Points(np.repeat(np.linspace(0.0, 1.0, 1500), 2), np.tile([1.0, -1.0], 1500)) for _ in model.program.families
+    ]
+    start = exchange.initial_guess(model.program, many)
+    given: list[int] = []
+    honest = conic_optimum
+
+    def counted(curvature: Any, cost: Any, rows: Any, *others: Any, **options: Any) -> Any:
+        given.append(len(rows))
+        return honest(curvature, cost, rows, *others, **options)
+
+    monkeypatch.setattr(quadratic_steps, "conic_optimum", counted)
+    few = stepwise_on_points(model.program, many, start)
+    assert max(given) < 500
+    monkeypatch.setattr(quadratic_steps, "_FEW_ROWS", 100_000)
+    every = stepwise_on_points(model.program, many, start)
+    assert max(given) > 3000
+    assert few.success
+    assert model.program.objective_at(few.x) == pytest.approx(model.program.objective_at(every.x), rel=1e-9)
+    rows = np.concatenate(
+        [
+            grid.s * family.value(few.x, grid.u) - family.right_side(few.x)
+            for family, grid in zip(model.program.families, many, strict=True)
+        ]
+    )
+    assert rows.max() <= 1e-9
+
+
+def test_a_start_ends_where_a_law_that_is_known_is_better(monkeypatch: pytest.MonkeyPatch) -> None:
+    """After a few rounds more points only raise the objective, so that the start cannot lead to a better law."""
+    model = model_of(Problem(order=3, basis=Chebyshev(9), minimise="peak(abs(c) + 3*b^2)", symmetric=False))
+    monkeypatch.setattr(exchange, "optimum_near", lambda *_: None)
+    asked: list[float] = []
+
+    def worse(x: Any) -> bool:
+        asked.append(float(model.program.objective @ x))
+        return len(asked) == 2
+
+    outcome = exchange.solve(model.program, worse=worse)
+    assert (outcome.optimum, outcome.tried, len(asked)) == (None, (), 2)
+    assert outcome.rounds == 5
+    assert outcome.status.startswith("no better than a law that is known")

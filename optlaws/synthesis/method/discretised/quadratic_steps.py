@@ -23,6 +23,8 @@ _STEP_PAYS = 1e-4  # of what a quadratic step promises: the share that it must h
 _STEP_FEASIBILITY = 1e-9  # what a row may be exceeded by in a quadratic step
 _LEFT_OVER = 1e-6  # by so much rows are exceeded in the last step where nothing near keeps them
 _STEP_GAIN = 1e-13  # of the objective: a quadratic step that promises less is rounding
+_FEW_ROWS = 8  # times the variables: rows of the first quadratic program of a step, and of those that join it
+_ROW_EXCEEDED = 1e-12  # of a row of length 1: less is the solver's own error
 _QUADRATIC_SOLVER = 1e-13  # what a solver of quadratic steps is told to leave of gap and feasibility
 
 _STEPS = 80
@@ -79,6 +81,8 @@ class _Descent:
         self.program, self.points = program, points
         self.pairs = list(zip(program.families, points, strict=True))
         self.ends = np.cumsum([0, *(len(grid.u) for grid in points)])
+        places = [np.lexsort((grid.u, grid.s)) for grid in points]
+        self.order = np.concatenate([begin + each for begin, each in zip(self.ends[:-1], places, strict=True)])
         self.raised = list(self._only_raised())
         self.price = _LEAST_PRICE
         #: tangents of convex integrals where they were asked: rows, what is beside them, and whose row each is like
@@ -203,6 +207,14 @@ class _Descent:
             residual[rows_above] -= excess
         return x, _Rows(residual, np.vstack(gradients))
 
+    def _tops(self, values: Array) -> NDArray[np.bool_]:
+        """The rows with more than their neighbours on either side, along the places of a family and a side."""
+        order = np.concatenate([self.order, np.arange(len(self.order), len(values))])
+        along = np.concatenate([[-np.inf], values[order], [-np.inf]])
+        tops = np.zeros(len(values), dtype=bool)
+        tops[order] = (along[1:-1] >= along[:-2]) & (along[1:-1] >= along[2:])
+        return tops
+
     def _bend(self, x: Array, multipliers: Array) -> Array:
         """The convex part of the Lagrangian's Hessian."""
         total, begin = np.zeros((len(x), len(x))), 0
@@ -229,23 +241,33 @@ class _Descent:
             residual = np.append(residual, slopes @ x + [beside for _, beside, _ in self.tangents])
         length = np.linalg.norm(gradient, axis=1)
         finite = np.isfinite(residual) & (length > EMPTY_ROW)
-        scale = 1.0 / length[finite]
-        inner = np.column_stack([gradient[finite] * scale[:, None], -scale])
+        scale = np.divide(1.0, length, where=finite, out=np.zeros(len(length)))
+        inner = np.column_stack([np.where(finite[:, None], gradient, 0.0) * scale[:, None], -scale])
+        below = np.where(finite, -np.where(finite, residual, 0.0) * scale, np.inf)
         spare = np.zeros((1, size + 1))
         spare[0, -1] = -1.0
         equations = np.column_stack([program.equalities, np.zeros(len(program.right))])
-        matrix = np.vstack([equations, inner, spare])
-        right = np.concatenate([np.zeros(len(program.right)), -residual[finite] * scale, [0.0]])
         curvature = np.zeros((size + 1, size + 1))
         curvature[:size, :size] = bend + damping * np.eye(size)
-        cones = [clarabel.ZeroConeT(len(program.right)), clarabel.NonnegativeConeT(int(finite.sum()) + 1)]
         cost = np.append(program.objective, self.price)
-        optimum = conic_optimum(curvature, cost, matrix, right, cones, tolerance=_QUADRATIC_SOLVER, alike=False)
-        if not usable(optimum):
-            return None
-        duals = np.asarray(optimum.z)
-        weights = np.zeros(len(residual))
-        weights[finite] = np.maximum(duals[len(program.right) : -1], 0.0) * scale
+        # of thousands of rows a few bind: those that the answer exceeds join them
+        few, chosen = _FEW_ROWS * (size + 1), np.zeros(len(below), dtype=bool)
+        chosen[np.argsort(below)[:few]] = True
+        chosen &= finite
+        while True:
+            cones = [clarabel.ZeroConeT(len(program.right)), clarabel.NonnegativeConeT(int(chosen.sum()) + 1)]
+            matrix = np.vstack([equations, inner[chosen], spare])
+            right = np.concatenate([np.zeros(len(program.right)), below[chosen], [0.0]])
+            optimum = conic_optimum(curvature, cost, matrix, right, cones, tolerance=_QUADRATIC_SOLVER, alike=False)
+            if not usable(optimum):
+                return None
+            over = np.where(chosen, -np.inf, inner @ np.asarray(optimum.x) - below)
+            more = np.flatnonzero(self._tops(over) & (over > _ROW_EXCEEDED))
+            if not len(more):
+                break
+            chosen[more[np.argsort(-over[more])[:few]]] = True
+        duals, weights = np.asarray(optimum.z), np.zeros(len(residual))
+        weights[chosen] = np.maximum(duals[len(program.right) : -1], 0.0) * scale[chosen]
         for weight, (_, _, row) in zip(weights[count:], self.tangents, strict=True):
             weights[row] += weight
         weights = weights[:count]
