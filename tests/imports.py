@@ -22,7 +22,7 @@ class Import:
 
 #: methods that hand a value to what draws, exports, shows or proves it: the only places where such an import stands
 HANDED_UP = {
-    "_leaf_bound": ("optlaws.verification.exact.bound",),
+    "_leaf_bound": ("optlaws.verification.",),
     "plot": ("optlaws.plots.",),
     "_plot": ("optlaws.plots.",),
     "export": ("optlaws.exports.", "optlaws.synthesis.proven.fewest_laws"),

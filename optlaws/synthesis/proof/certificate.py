@@ -20,6 +20,7 @@ from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.numbers import bounded
+from optlaws.synthesis.limits.rounding import rounded_down
 from optlaws.synthesis.problem.constants import present_name
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, least_violation, model_of, relaxed
@@ -175,10 +176,13 @@ class Certificate(JsonText):
         return self.claim if self.proven and self.claim < inf else -inf
 
     def _leaf_bound(self) -> float:
-        from optlaws.verification.exact.bound import bound_of_leaf
+        from optlaws.verification import exact_bound
 
-        exact = bound_of_leaf(self)
-        return self.estimate if exact is None else exact
+        try:
+            exact = exact_bound(self)
+        except InputError:
+            return self.estimate
+        return -inf if exact is None else rounded_down(exact)
 
     @kept_property
     def proven(self) -> bool:

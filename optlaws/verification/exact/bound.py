@@ -15,7 +15,7 @@ from math import inf, isfinite
 from flint import arb, arb_mat, ctx
 
 from optlaws.errors import InputError
-from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
+from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.nodes import Contact
@@ -87,15 +87,6 @@ def prove(certificate: Certificate, along: Along | None = None) -> Proof:
     if isinstance(least, Fraction) and (best.value is None or best.value <= least):
         return replace(best, value=least, charge=0.0, by_rows=False)
     return best
-
-
-def bound_of_leaf(certificate: Certificate) -> float | None:
-    """The bound of one leaf, rounded down; None where exact arithmetic does not know a constant of the problem."""
-    try:
-        value = prove(certificate).value
-    except InputError:
-        return None
-    return -inf if value is None else rounded_down(value)
 
 
 def _bits(certificate: Certificate) -> int:
