@@ -86,11 +86,9 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
     def _pieces(self, k: Array, values: Any) -> Array:
         result = np.empty(k.shape)
         places = np.searchsorted(self.breaks[1:-1], k, side="right")
-        for i, (segment, length) in enumerate(self._lengths):
-            here = places == i
-            if here.any():
-                u = np.minimum((k[here] - self.breaks[i]) / length, 1.0)
-                result[here] = values(segment, u, length)
+        for i in np.flatnonzero(np.bincount(np.ravel(places))).tolist():  # of many segments few have a place of k
+            here, (segment, length) = places == i, self._lengths[i]
+            result[here] = values(segment, np.minimum((k[here] - self.breaks[i]) / length, 1.0), length)
         return result
 
     def _derivative(self, k: Array, nu: int) -> Array:
