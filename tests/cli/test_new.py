@@ -195,7 +195,12 @@ def test_a_drive_begins_with_nothing_worse_than_by_modified_sine(capsys: Capture
 
 
 @pytest.mark.parametrize(
-    "numbers", ["--stroke 40mm --rise 110deg --return 110deg", "--stroke 10mm --rise 90deg --return 90deg"]
+    "numbers",
+    [
+        "--stroke 40mm --rise 110deg --return 110deg",
+        # the radius of curvature binds: `tests/cams/test_best_laws.py` has such cams of a lower degree each time
+        pytest.param("--stroke 10mm --rise 90deg --return 90deg", marks=pytest.mark.long),
+    ],
 )
 def test_a_cam_begins_with_less_torque_at_its_shaft_than_by_modified_sine(numbers: str, capsys: Capture) -> None:
     given = [*shlex.split(numbers), "--speed", "180rpm", "--mass", "3kg"]

@@ -43,6 +43,12 @@ WRONG = [
     for option, summary in options.items()
     if (kind := summary.partition(" = ")[0].removesuffix(" | None")) in NUMBERS
 ]
+#: the many panels of the catalogue take as long as the pictures of all others
+DRAWING = [
+    pytest.param(one, marks=[pytest.mark.long] if one == "catalogue" else [])
+    for one, options in COMMANDS.items()
+    if "--plot" in options
+]
 WRITTEN = [(command, option) for command, options in COMMANDS.items() for option in FILES if option in options]
 
 Capture = pytest.CaptureFixture[str]
@@ -104,7 +110,7 @@ def test_json_is_strict_and_alone(command: str, capsys: Capture) -> None:
 
 
 @pytest.mark.sample(4)
-@pytest.mark.parametrize("command", [one for one, options in COMMANDS.items() if "--plot" in options])
+@pytest.mark.parametrize("command", DRAWING)
 def test_a_picture_is_drawn_of_what_was_found(command: str, capsys: Capture) -> None:
     assert exit_code([*call(command), "--plot", "picture.svg", "--json"]) == 0
     capsys.readouterr()

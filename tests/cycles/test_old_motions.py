@@ -63,6 +63,7 @@ def test_specks_of_dust_are_left_out_and_listed(seed: int) -> None:
     assert np.abs(values).max() * 1e3 / 360**2 == pytest.approx(peak, rel=0.01)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("seed", range(4))
 def test_a_move_that_begins_where_its_noisy_table_does(seed: int) -> None:
     """Its first rows, which noise hides, look like a rest; that of the table's end goes on to its seam."""
