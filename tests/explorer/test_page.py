@@ -496,7 +496,13 @@ def test_amid_a_drag_slow_answers_are_shown_and_once_it_rests_the_last(page: Pag
 @pytest.mark.sample(3)
 @pytest.mark.parametrize(
     "fragment",
-    ["view=%22constructor%22", "laws=5", "cam=%7B%7D&view=%22cam%22", "cycle=%7B%22axis%22%3A3%7D&view=%22cycle%22"],
+    [
+        "view=%22constructor%22",
+        "axis=7&view=%22machine%22",
+        "laws=5",
+        "cam=%7B%7D&view=%22cam%22",
+        "cycle=%7B%22axis%22%3A3%7D&view=%22cycle%22",
+    ],
 )
 def test_an_odd_address_shows_a_page_that_lives(page: Page, served: Server, fragment: str) -> None:
     go(page, f"http://{served.host}/#{fragment}")

@@ -54,7 +54,7 @@ function createAxisNames(root, study, kinds) {
     const shape = JSON.stringify([names, axis]);
     if (shape === shownShape) return;
     shownShape = shape;
-    renew(root, group("Axes", ...names.map((name, i) => row(name, i, names, i === Math.min(axis, names.length - 1))), button("+ axis", () => add(names))));
+    renew(root, group("Axes", ...names.map((name, i) => row(name, i, names, i === axis)), button("+ axis", () => add(names))));
   }
 
   function change(what, alter) {
@@ -104,7 +104,7 @@ export function removeAxis(state, i, kinds) {
 
 /** The axes of the same machine: those that have the mechanism and the drive of one. */
 export function beside(study, index) {
-  const axis = study.axis[index] ?? study.axis[0];
+  const axis = study.axis[index];
   const own = JSON.stringify([axis.mechanism, axis.drive]);
   return study.axis.filter((one) => JSON.stringify([one.mechanism, one.drive]) === own);
 }
@@ -127,7 +127,7 @@ function createMachineForm(root, study, { mechanisms, drive }) {
   const fields = createForm((what, alter) => changeAll(study, what, alter), () => study.rest());
 
   function show(state) {
-    const axis = state.machine.axis[state.axis] ?? state.machine.axis[0];
+    const axis = state.machine.axis[state.axis];
     const kind = axis.mechanism?.kind ?? "";
     const motor = Boolean(axis.drive?.motor);
     fields.draw(root, [kind, motor], axis, () => [mechanismGroup(kind), ...driveGroups(motor)]);
@@ -223,14 +223,14 @@ export function createProgramme(root, study, held, entries) {
   function show(state) {
     const tables = tablesOf(state);
     const { cycle, axis } = tables;
-    if (axis) form.draw(root, [state.axis, axis.name, axis.segment?.length, "period" in cycle, "mechanism" in axis, turns(axis)], tables, () => fields(cycle, axis));
+    form.draw(root, [state.axis, axis.name, axis.segment.length, "period" in cycle, "mechanism" in axis, turns(axis)], tables, () => fields(cycle, axis));
   }
 
-  const turns = ({ segment = [] }) => segment.some(({ by }) => /deg|rad/.test(by));
+  const turns = ({ segment }) => segment.some(({ by }) => /deg|rad/.test(by));
 
   function tablesOf(state) {
     const cycle = held(state);
-    return { cycle, axis: cycle.motion ?? cycle.axis?.[state.axis] ?? cycle.axis?.[0] };
+    return { cycle, axis: cycle.motion ?? cycle.axis[state.axis] };
   }
 
   /** Change the tables of the cycle and of its axis that is shown. */
@@ -259,7 +259,7 @@ export function createProgramme(root, study, held, entries) {
       form.field({ path: ["axis", "minimise"], label: "least", choices: entries.objectives, default: "acceleration" }, "minimise"),
     ];
     const limits = entries.limits[axis.mechanism ? "machine" : "motion"].map((one) => form.field({ ...one, path: ["axis", "limits", one.name] }, `limit ${one.name}`));
-    const segments = (axis.segment ?? []).map((_, i, { length }) => segment(i, length));
+    const segments = axis.segment.map((_, i, { length }) => segment(i, length));
     const add = button("+ segment", () => change("add segment", ({ axis: { segment } }) => segment.push({ ...FRESH })));
     // a mechanism has its drive in a form of its own, a cam among its forces
     const drive = axis.mechanism || cycle.motion ? [] : [group("What is moved", ...form.fields(entries.drive[turns(axis) ? "angle" : "length"], ["axis", "drive"], ["axis"]))];

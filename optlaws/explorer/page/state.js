@@ -82,6 +82,7 @@ export function read(fragment) {
   for (const name of ["frequency", "damping", "axis", "plane"]) if (typeof state[name] !== "number") state[name] = FIRST[name];
   for (const name of ["name", "notes", "view", "picture"]) if (typeof state[name] !== "string") state[name] = FIRST[name];
   for (const [name, whole] of Object.entries(WHOLE)) if (name in state && !whole(state[name])) delete state[name];
+  if (!state.machine?.axis[state.axis]) state.axis = 0;
   return state;
 }
 

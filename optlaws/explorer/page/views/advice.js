@@ -167,7 +167,7 @@ export function createView(root, study) {
   /** Give the motion a law, and show it there. */
   function takeLaw({ name, take }) {
     study.change(`take ${name}`, (state) => {
-      const axis = state.machine.axis[Math.min(state.axis, state.machine.axis.length - 1)];
+      const axis = state.machine.axis[state.axis];
       axis.segment.forEach((segment, i) => {
         const law = take.laws[i];
         if (law === null || law === undefined || !MOVES.includes(segment.kind)) return;

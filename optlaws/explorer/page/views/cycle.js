@@ -55,7 +55,7 @@ export function createView(root, study) {
   /** Let a segment end at an angle, and the next one begin there. */
   function moveJoint(i, at) {
     const { segments, turn } = current;
-    study.change(`joint ${i}`, (state) => join((state.machine.axis[state.axis] ?? state.machine.axis[0]).segment, segments, { i, at, turn }));
+    study.change(`joint ${i}`, (state) => join(state.machine.axis[state.axis].segment, segments, { i, at, turn }));
   }
 
   /** The segment that the cursor is in stands out in the table. */
@@ -66,7 +66,7 @@ export function createView(root, study) {
 
   function back({ entry, value }) {
     study.change(`back ${entry}`, (state) => {
-      const axis = state.machine.axis[state.axis] ?? state.machine.axis[0];
+      const axis = state.machine.axis[state.axis];
       axis.limits = { ...axis.limits, [entry]: value };
     });
   }

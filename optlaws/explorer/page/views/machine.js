@@ -187,7 +187,7 @@ export function createView(root, study, { programme }) {
 
   function add(name, alter) {
     study.change(`add ${name}`, (state) => {
-      const axis = structuredClone(state.machine.axis[state.axis] ?? state.machine.axis[0]);
+      const axis = structuredClone(state.machine.axis[state.axis]);
       axis.name = name;
       alter(axis);
       const taken = state.machine.axis.map((one) => one.name);
@@ -240,7 +240,7 @@ export function createView(root, study, { programme }) {
 
   /** What is to be asked of the ratios around the present one; a drag within them asks nothing new. */
   function sweep(state) {
-    const axis = state.machine.axis[state.axis] ?? state.machine.axis[0];
+    const axis = state.machine.axis[state.axis];
     const ratio = Number(axis.drive?.ratio ?? 1);
     const [low, high] = span ?? [0, 0];
     if (ratio < NEAR * low || ratio > high / NEAR) span = [ratio / SPAN, SPAN * ratio].map((value) => Number(value.toPrecision(2)));
