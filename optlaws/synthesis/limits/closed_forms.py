@@ -15,13 +15,7 @@ from typing import Any
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import MOST_ORDER, MOST_VELOCITY, real, whole
-from optlaws.synthesis.limits.rounding import (
-    not_above,
-    ratio_rounded_down,
-    root_ratio_rounded_down,
-    root_rounded_down,
-    rounded_down,
-)
+from optlaws.synthesis.limits.rounding import not_above, root_rounded_down, rounded_down
 
 CONSTANTS = ("C", "D", "J", "RMS")
 
@@ -54,15 +48,14 @@ def acceleration_limit(B: float, *, monotone: bool = False, order: int = 2) -> f
     9.0
     """
     peak_velocity(B)
-    b, unit = float(B).as_integer_ratio()
+    b = Fraction(B)
     if whole(order, "order", least=1, most=MOST_ORDER) == 1:
-        return ratio_rounded_down(*((b * b, unit * unit) if monotone and B > 2.0 else (4 * (b - unit), unit)))
+        return rounded_down(b * b if monotone and B > 2.0 else 4 * (b - 1))
     if B <= 2.0:
-        return ratio_rounded_down(b * b, unit * (b - unit))
+        return rounded_down(b * b / (b - 1))
     if monotone:
-        return ratio_rounded_down(b * b, unit * unit)
-    beyond = b - 2 * unit
-    return root_ratio_rounded_down(2 * beyond, 4 * (beyond * beyond + b * b), unit)
+        return rounded_down(b * b)
+    return root_rounded_down(2 * (b - 2), Fraction(2), (b - 2) ** 2 + b * b)
 
 
 def power_limit(B: float, *, monotone: bool = False) -> float:

@@ -21,41 +21,6 @@ def rounded_down(value: Fraction) -> float:
     return not_above(nearest, lambda x: x <= value)
 
 
-def ratio_rounded_down(numerator: int, denominator: int) -> float:
-    """A double just below a ratio of whole numbers with positive denominator; quicker than by fractions.
-
-    >>> ratio_rounded_down(9, 4), Fraction(ratio_rounded_down(2, 3)) <= Fraction(2, 3)
-    (2.25, True)
-    """
-    try:
-        nearest = numerator / denominator
-    except OverflowError:
-        return rounded_down(Fraction(numerator, denominator))
-    upper, lower = nearest.as_integer_ratio()
-    return nearest if upper * denominator <= numerator * lower else nextafter(nearest, -inf)
-
-
-def root_ratio_rounded_down(whole: int, square: int, denominator: int) -> float:
-    """A double just below (whole + root of square) / denominator; all integers but `whole` are positive.
-
-    >>> root_ratio_rounded_down(1, 9, 4), root_ratio_rounded_down(0, 2, 1) ** 2 <= 2.0
-    (1.0, True)
-    """
-    try:
-        value = (whole + sqrt(square)) / denominator
-    except OverflowError:
-        return root_rounded_down(Fraction(whole, denominator), Fraction(1, denominator), Fraction(square))
-    steps = 1.0
-    while isfinite(value):
-        upper, lower = value.as_integer_ratio()
-        rest = upper * denominator - whole * lower
-        if rest <= 0 or rest * rest <= square * lower * lower:
-            return value
-        value = min(nextafter(value, -inf), value - steps * ulp(value))
-        steps *= 2.0
-    return value
-
-
 def rounded_up(value: Fraction) -> float:
     """The least double that is not below an exact number.
 
