@@ -379,7 +379,7 @@ def test_the_greatest_is_that_of_the_whole_table(points: int, size: float, dampi
 def test_of_many_rows_those_that_bind_give_the_optimum_of_all(
     monkeypatch: pytest.MonkeyPatch, *, minimise: bool
 ) -> None:
-    for seed, size in ((0, 1.0), (1, 1e-9), (2, 1e9)):
+    for seed, size in ((1, 1e-9), (2, 1e9)):
         limit = residual_vibration(spectrum=measured(seed, 120, size), damping=0.02)
         if minimise:
             problem = Problem(order=3, basis=Chebyshev(7), minimise=limit, B=at_most(2), C=at_most(7))

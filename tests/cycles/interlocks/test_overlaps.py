@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from matplotlib.path import Path
 from scipy.optimize import linprog
@@ -27,6 +27,7 @@ from optlaws import (
     Synchronous,
     catalogue,
 )
+from tests.sampling import examples
 
 CYCLOID: Any = catalogue["cycloidal"].law
 LAW: Any = {"law": "cycloidal"}
@@ -276,7 +277,7 @@ def least_time(stroke: str, limits: dict[str, Any], **given: Any) -> float:
     return float(alone.fastest().segments[0].least)
 
 
-@settings(max_examples=12)
+@examples(40)
 @given(
     size=st.sampled_from([1e-12, 1e-6, 1.0, 1e9]),
     times=st.tuples(*[st.floats(1e-3, 1e3)] * 2),
@@ -331,7 +332,7 @@ def test_two_axes_around_a_hill_overlap(degree: int, period: float) -> None:
     assert best.axes["x"].durations[1] == pytest.approx(times[0], rel=1e-7)
 
 
-@settings(max_examples=10)
+@examples(40)
 @given(
     strokes=st.tuples(*[st.floats(10.0, 90.0)] * 2),
     shares=st.tuples(*[st.floats(0.05, 0.95)] * 2),

@@ -387,6 +387,10 @@ MADE: dict[str, Callable[[], MoveLimit]] = {
 }
 
 
+#: of a drive and of a mechanism, with an energy and without, and a proof that there is none
+ENTRIES = [name for name in MADE if name.startswith(("peak torque of", "energy", "rms torque w", "proof that the t"))]
+
+
 @cache
 def limit_of(name: str) -> MoveLimit:
     return MADE[name]()
@@ -445,7 +449,7 @@ def test_a_limit_of_another_drive_is_not_proven() -> None:
 
 
 def test_what_a_limit_does_not_use_is_not_in_its_file() -> None:
-    for name, limit in zip(MADE, map(limit_of, MADE), strict=True):
+    for name, limit in zip(ENTRIES, map(limit_of, ENTRIES), strict=True):
         data = limit.to_dict()
         beside = {"heat", "recovered"} & data["move"].keys()
         of_drive = "drive" in data["move"]
@@ -473,7 +477,7 @@ def test_no_number_stands_beside_a_certificate_that_proves_nothing(name: str) ->
 
 
 def test_a_file_without_its_move_is_refused_with_a_remedy() -> None:
-    for name, limit in zip(MADE, map(limit_of, MADE), strict=True):
+    for name, limit in zip(ENTRIES, map(limit_of, ENTRIES), strict=True):
         data = {key: value for key, value in limit.to_dict().items() if key != "move"}
         for read in (verify, MoveLimit.from_dict):
             with pytest.raises(
