@@ -37,9 +37,9 @@ def node() -> str:
     return str(compute_driver_executable()[0])
 
 
-def run(file: Path) -> subprocess.CompletedProcess[str]:
-    """The program in JavaScript on a file."""
-    return subprocess.run([node(), PROGRAM, "--json", file], capture_output=True, text=True, check=False)
+def run(*files: Path) -> subprocess.CompletedProcess[str]:
+    """The program in JavaScript on files, a line of JSON of each."""
+    return subprocess.run([node(), PROGRAM, "--json", *files], capture_output=True, text=True, check=False)
 
 
 def certificates(data: object, path: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
