@@ -7,6 +7,7 @@ import pytest
 
 from optlaws.typing import Overlap
 from optlaws.verification import verify
+from tests.documents import ROOT
 from tests.internals.cli import exit_code
 from tests.verification.tampered_formats import drawn_axes
 from tests.verification.tampering import changed
@@ -42,3 +43,12 @@ def test_false_numbers_of_an_overlap_are_not_proven() -> None:
     assert verify(changed(data, ("binding",), data["binding"][::-1])).proven
     assert not verify(changed(data, ("given", "interlocks"), [])).proven
     assert not verify(changed(data, ("goal",), "acceleration")).proven
+
+
+def test_the_proven_interlocks_of_a_machine_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert exit_code(["verify", str(ROOT / "results" / "cycle_die_and_table" / "cycle.json")]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split(",")[0] for line in lines if " interlock " in line] == [
+        "proven      interlock index: clear",
+        "proven      interlock close: clear",
+    ]
