@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 COLUMNS = ("B", "C", "D", "base", "z", "note")
 VERDICTS = ("row B", "quantity", "printed", "exact", "on grid", "verdict", "reason")
-Curves = Mapping[int, Sequence[Solution]]
+Curves = Mapping[int, Mapping[float, Solution]]
 # the paper's C is the greatest c, not the greatest |c|
 _LEFT_OUT = "the greater deceleration, which the paper leaves out,"
 
@@ -131,7 +131,7 @@ def solved(spec: Table, lines: Sequence[Mapping[str, str]]) -> tuple[list[Row], 
     richer = [{degree: solved[degree][B] for degree in spec.degrees} for B in values]
     same = [_same_shape(spec, line, B, optima) for line, B, optima in zip(lines, values, richer, strict=True)]
     rows = [Row(*parts) for parts in zip(lines, laws, same, richer, strict=True)]
-    return rows, {degree: list(solved[degree].values()) for degree in spec.figure.degrees}
+    return rows, {degree: solved[degree] for degree in spec.figure.degrees}
 
 
 def _by_velocity(spec: Table, degree: int, values: Sequence[float]) -> dict[float, Solution]:
@@ -289,9 +289,9 @@ def _printed(axes: Axes, spec: Table, rows: Sequence[Row]) -> None:
 
 def _optima(axes: Axes, curves: Curves) -> None:
     for (degree, curve), shade in zip(curves.items(), shades(len(curves)), strict=True):
-        line = [s.objective for s in curve]
+        line = [solution.objective for solution in curve.values()]
         label = "optimal, by degree of Z(k)" if degree == max(curves) else None
-        velocities = [solution.law.peak(1).value for solution in curve]
+        velocities = list(curve)
         axes.plot(velocities, line, color=shade, label=label)
         style: dict[str, Any] = {"xytext": (5, 0), "textcoords": "offset points", "va": "center"}
         axes.annotate(f"{degree}", (velocities[-1], line[-1]), color=shade, annotation_clip=False, **style)
