@@ -10,10 +10,10 @@ from typing import Any, Self
 from optlaws.cycles.answers import Answers
 from optlaws.cycles.greatest_speed.fastest_search import FastestSearch
 from optlaws.cycles.greatest_speed.timed_spans import TimedSpan
-from optlaws.cycles.moves.fastest_move import best_possible_row
 from optlaws.cycles.optimisation.objectives import check_rating
 from optlaws.cycles.placed import retimed, segments_in_place
 from optlaws.cycles.specification.limits import FORCE_UNITS, amount, word_of
+from optlaws.cycles.specification.periods import best_possible_row
 from optlaws.entries.declared import Declared, FrozenTable, ValueOf, declared, entry
 from optlaws.entries.value_types import Choice, Listed, Number, ReadBy, Switch, Table, Text
 from optlaws.errors import InputError

@@ -10,12 +10,12 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
-from optlaws.cycles.moves.fastest_move import AXES, FastestMove, MovePlan, best_possible_row, panels_of
+from optlaws.cycles.moves.fastest_move import AXES, FastestMove, MovePlan, panels_of
 from optlaws.cycles.moves.timed_moves import move_limits
 from optlaws.cycles.optimisation.objectives import CycleObjective
 from optlaws.cycles.optimisation.optimal import solved, span_problem
 from optlaws.cycles.specification.limits import along_motion, of_segments
-from optlaws.cycles.specification.periods import extent
+from optlaws.cycles.specification.periods import best_possible_row, extent
 from optlaws.cycles.specification.programme import REST, LawSpan, Programme, State, TimedSegment
 from optlaws.cycles.specification.segments import Move, Transition
 from optlaws.entries.declared import Declared, ValueOf, declared, entry

@@ -7,7 +7,6 @@ from dataclasses import KW_ONLY, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from optlaws.cams import at_shaft  # noqa: F401 - by which the kind "cam" is known
 from optlaws.cycles.axes.interlock import INTERLOCKS, Interlock
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.load import ElasticFollower
@@ -251,6 +250,8 @@ def drive_of(
             )
         return drive
     with located("mechanism"):
+        from optlaws.cams import at_shaft  # noqa: F401 - by which the kind "cam" is known
+
         driven = MechanismKind.from_dict(mechanism).mechanism
     if drive is None:
         return driven

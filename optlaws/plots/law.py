@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optlaws.cycles.law_comparison import Comparison
 from optlaws.errors import InputError
 from optlaws.laws.curve import Curve
 from optlaws.laws.law import MotionLaw
@@ -19,14 +18,15 @@ from optlaws.motion.piece import factor, unit_of
 from optlaws.plots.report import draw_panel, draw_share
 from optlaws.plots.style import BLUES, BROWN, GREEN, GREY, VIOLET, WARM, new_figure, plot_style
 from optlaws.synthesis.limits.of_problem import limited_laws
-from optlaws.synthesis.solution import Solution
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from optlaws.cycles.law_comparison import Comparison
     from optlaws.shown.report import Panel
+    from optlaws.synthesis.solution import Solution
 
 Panels = Sequence["Axes"]
 

@@ -22,7 +22,6 @@ from optlaws.synthesis.arrays.programs import NO_CONTACT, SolvedBatch
 from optlaws.synthesis.families.peaks import by_pieces, constant_of_series
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.fields import CONSTANTS
-from optlaws.synthesis.problem.plain_entries import plain_entries
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
@@ -34,7 +33,6 @@ from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.synthesis.status import Status, measure, status_of
 from optlaws.synthesis.stored_rows import plain_error, plain_state
-from optlaws.synthesis.stored_solutions import read_solutions
 from optlaws.tolerances import OPTIMALITY_GAP
 
 if TYPE_CHECKING:
@@ -390,6 +388,8 @@ class SolutionArray(JsonText):
 
         `optlaws verify` checks each solution, and `from_dict` reads it again.
         """
+        from optlaws.synthesis.problem.plain_entries import plain_entries
+
         results = map(self.result, range(self.size))
         return {
             "shape": list(self.shape),
@@ -429,6 +429,8 @@ class SolutionArray(JsonText):
         >>> SolutionArray.from_dict(laws.to_dict())[1] == laws[1]
         True
         """
+        from optlaws.synthesis.stored_solutions import read_solutions
+
         problems, parts, others, seconds = read_solutions(data)
         return cls(problems, tuple(SolvedPart(*part) for part in parts), others, seconds)
 

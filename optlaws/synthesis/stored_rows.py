@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import fields
 from functools import lru_cache
 from math import inf, isfinite
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import msgspec
 import numpy as np
@@ -22,7 +22,6 @@ from optlaws.files.reading import is_number
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
-from optlaws.synthesis.limits.drive_limits import DriveLimit
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import evaluate, shortfalls
@@ -34,6 +33,9 @@ from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.synthesis.status import Status, status_of
 from optlaws.tolerances import STORED_VALUE
+
+if TYPE_CHECKING:
+    from optlaws.synthesis.limits.drive_limits import DriveLimit
 
 _PROOFS = ("certificate", "power_certificate", "peak_certificate")
 _STORED_COEFFICIENT = 1e-11  # of a law's coefficient: what another machine may round otherwise
@@ -156,7 +158,7 @@ def claims_of(row: StatedSolution, problem: Problem, law: MotionLaw) -> Plain:
         follows from both.
     """
     proofs = {name: _read(Certificate.from_dict, getattr(row, name)) for name in _PROOFS}
-    drive, limit = _read(DriveLimit.from_dict, row.drive_limit), known_limit(problem)
+    drive, limit = _read(_drive_limit, row.drive_limit), known_limit(problem)
     value, size = evaluate(problem, law), _size(problem)
     if not value.sound or shortfalls(problem, law):
         raise InputError("its law does not keep the constraints of its problem")
@@ -181,6 +183,12 @@ def claims_of(row: StatedSolution, problem: Problem, law: MotionLaw) -> Plain:
         "status": row.status,
         "drive_limit": drive,
     }
+
+
+def _drive_limit(data: Plain) -> DriveLimit:
+    from optlaws.synthesis.limits.drive_limits import DriveLimit
+
+    return DriveLimit.from_dict(data)
 
 
 def _ways(problem: Problem) -> list[bool]:

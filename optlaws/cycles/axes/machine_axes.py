@@ -10,8 +10,8 @@ from warnings import warn
 from optlaws.cycles.axes.interlock import INTERLOCKS, Interlock, LeastClearance
 from optlaws.cycles.axes.report import AxesReport, OverlapReport
 from optlaws.cycles.cycle import Cycle, Plan
-from optlaws.cycles.moves.fastest_move import best_possible_row
 from optlaws.cycles.placed import with_laws
+from optlaws.cycles.specification.periods import best_possible_row
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment, Dwell
 from optlaws.cycles.specified import CLOCK, problem_file

@@ -12,6 +12,7 @@ import numpy as np
 
 from optlaws.cycles.greatest_speed.timed_spans import least_time_of
 from optlaws.cycles.specification.limits import DECELERATION, LimitTaken
+from optlaws.cycles.specification.periods import best_possible_row
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText, entries_of
@@ -330,18 +331,6 @@ def _time_of(law: MotionLaw, move: TimedMove) -> float:
         if calm(after):
             return bisect(calm, after, before)[0]
     return inf
-
-
-def best_possible_row(best: float | None, least: float, laws: str = "of any degree") -> Row:
-    """What is known of the time of all laws, beside the least time of those of a space.
-
-    >>> best_possible_row(None, 0.2).text(), best_possible_row(0.2, 0.21).note
-    ('not known', 'no law of any degree takes less; the least time is 5 % above it')
-    """
-    if best is None:
-        return Row("best possible", "not known", note=f"for laws {laws}")
-    above = 100.0 * max(least / best - 1.0, 0.0)
-    return Row("best possible", best, "s", note=f"no law {laws} takes less; the least time is {above:.2g} % above it")
 
 
 @dataclass(frozen=True)

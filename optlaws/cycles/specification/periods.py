@@ -10,6 +10,7 @@ from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.motion.quantities import TURN, either
 from optlaws.numerics.roots import bisect
+from optlaws.shown.summary import Row
 from optlaws.tolerances import SAME_TIME
 
 
@@ -131,3 +132,15 @@ def durations_at(ranges: Sequence[DurationRange], needed: Sequence[float], perio
 
 def _most(given: DurationRange, period: float) -> float:
     return inf if given.most.share == inf else given.most.at(period)
+
+
+def best_possible_row(best: float | None, least: float, laws: str = "of any degree") -> Row:
+    """What is known of the time of all laws, beside the least time of those of a space.
+
+    >>> best_possible_row(None, 0.2).text(), best_possible_row(0.2, 0.21).note
+    ('not known', 'no law of any degree takes less; the least time is 5 % above it')
+    """
+    if best is None:
+        return Row("best possible", "not known", note=f"for laws {laws}")
+    above = 100.0 * max(least / best - 1.0, 0.0)
+    return Row("best possible", best, "s", note=f"no law {laws} takes less; the least time is {above:.2g} % above it")

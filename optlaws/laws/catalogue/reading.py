@@ -11,10 +11,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError, located
 from optlaws.files import reading
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.catalogue.tables.columns import points_of
-from optlaws.laws.catalogue.tables.curve_pieces import law_of_pieces
 from optlaws.laws.law import MotionLaw
-from optlaws.laws.making.through_points import MOST_THROUGH, law_of_table, law_through
 from optlaws.laws.savin import FAMILIES, SavinFamily
 from optlaws.numbers import not_negative
 
@@ -57,6 +54,10 @@ def law_of_points(
     InputError
         If the file cannot be read, has more columns and none are chosen, a line is no point, or no law keeps to them.
     """
+    from optlaws.laws.catalogue.tables.columns import points_of
+    from optlaws.laws.catalogue.tables.curve_pieces import law_of_pieces
+    from optlaws.laws.making.through_points import MOST_THROUGH, law_of_table, law_through
+
     points = points_of(file, columns, content=content)
     if points.pieces and tolerance is None:
         with located(str(file)):

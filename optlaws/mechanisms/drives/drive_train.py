@@ -15,7 +15,6 @@ from optlaws.formulas.tree import Formula
 from optlaws.formulas.tree import Number as Constant
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, smoothstep
-from optlaws.mechanisms.drives.effort import BestRatio, DriveSheet, PieceEffort, TorqueByRatio
 from optlaws.mechanisms.drives.motor import NO_MOTOR, Motor
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.mechanisms.linkages.mechanism_formulas import MOVED, LinearForce, StrokeTorque, Train
@@ -26,6 +25,7 @@ from optlaws.numbers import Array, NumberOrQuantity, positive
 from optlaws.tolerances import CLOSURE
 
 if TYPE_CHECKING:
+    from optlaws.mechanisms.drives.effort import BestRatio, DriveSheet
     from optlaws.mechanisms.linkages.move_limit import MoveLimit
     from optlaws.synthesis.limits.drive_limits import DriveObjective
 
@@ -301,6 +301,8 @@ class Drive(Declared, title="a drive"):
         >>> {margin.name: round(margin.use, 8) for margin in sheet.margins}
         {'RMS torque': 0.72925891}
         """
+        from optlaws.mechanisms.drives.effort import DriveSheet, PieceEffort
+
         piece, time = self._move(law, start, stroke, duration, period)
         rest = Piece(piece.stop, time - piece.duration, piece.offset + piece.stroke, 0.0, smoothstep(1))
         pieces = [piece, rest] if rest.duration > CLOSURE * time else [piece]
@@ -336,6 +338,8 @@ class Drive(Declared, title="a drive"):
         >>> round(best.ratio, 6), round((0.8 / 3e-4) ** 0.5, 6)
         (51.639778, 51.639778)
         """
+        from optlaws.mechanisms.drives.effort import PieceEffort, TorqueByRatio
+
         piece, time = self._move(law, start, stroke, duration, period)
         times, weights = PieceEffort(self.with_ratio(1.0), piece).parts.places
         x, v, w = (piece.values(times, nu) for nu in range(3))
@@ -357,6 +361,7 @@ class Drive(Declared, title="a drive"):
         The move is as `sheet` takes it; `ax` are axes of matplotlib, a new figure unless given, and `style` is what
         `Axes.plot` takes, for the move.
         """
+        from optlaws.mechanisms.drives.effort import PieceEffort
         from optlaws.plots.machine import draw_torque_over_speed
 
         piece, _ = self._move(law, start, stroke, duration, None)

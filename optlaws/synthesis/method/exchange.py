@@ -24,8 +24,6 @@ from optlaws.synthesis.method.contacts import polished
 from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.synthesis.method.discretised.conic import INFEASIBLE, SOLVED, of_cones, optimum_on_points
 from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
-from optlaws.synthesis.method.discretised.linear import vertex_on_points
-from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.few_families import binding_few
 from optlaws.synthesis.method.identified import as_answered, optimum_near
@@ -287,9 +285,13 @@ def answer_on_points(
         if answer.status in (SOLVED, INFEASIBLE):
             return answer
         if not program.curved:
+            from optlaws.synthesis.method.discretised.linear import vertex_on_points
+
             return vertex_on_points(program, points) or answer
         if answer.success:
             return answer
+    from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
+
     return stepwise_on_points(program, points, np.zeros(program.size) if start is None else start, settled)
 
 

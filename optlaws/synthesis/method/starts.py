@@ -5,15 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from math import inf, isfinite
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from optlaws.numbers import Array
 from optlaws.synthesis.functionals.curved_rows import columns_of
-from optlaws.synthesis.limits.drive_limits import DriveLimit
 from optlaws.synthesis.method.exchange import Method, solve
 from optlaws.synthesis.problem.constants import PowerConstant
 from optlaws.synthesis.program.writer import Model, model_of
+
+if TYPE_CHECKING:
+    from optlaws.synthesis.limits.drive_limits import DriveLimit
 
 _AMPLE = 1.2
 
