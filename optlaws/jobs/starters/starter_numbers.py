@@ -62,7 +62,11 @@ _TABLES: dict[str, dict[str, tuple[ValueType, str | None, str]]] = {
         "inertia": (_INERTIA, "0.8 kg m^2", "Moment of inertia of the table that is turned."),
         "friction": (Measured("torque", least=0.0), None, "Friction at the table; none unless given."),
         "ratio": (Number(above=0.0), "20", "Turns of the motor with a turn of the table."),
-        "efficiency": (Number(above=0.0, most=1.0), None, "Of the gear, up to 1, in both directions; 1 unless given."),
+        "efficiency": (
+            Number(above=0.0, most=1.0),
+            None,
+            "Efficiency of the gear, up to 1, in both directions; 1 unless given.",
+        ),
         "rotor": (_INERTIA, "3e-4 kg m^2", "Moment of inertia of the motor."),
         "rated-torque": (_TORQUE, "2 N m", "Continuous (rated) torque of the motor."),
         "peak-torque": (_TORQUE, "6 N m", "Torque that the motor must not exceed."),
