@@ -188,7 +188,7 @@ def monotone_laws() -> list[MotionLaw]:
     st.sampled_from(["peak torque", "rms torque", "energy"]),
     st.sampled_from(monotone_laws()),
 )
-@examples(20)
+@examples(30)
 def test_no_standard_law_beats_the_limit(
     bulge: float, load: float, friction: float, minimise: str, law: MotionLaw
 ) -> None:
