@@ -104,10 +104,10 @@ def extremes(function: Smooth, start: Fraction, stop: Fraction) -> Extremes:
         return arb.nan(), arb.nan()
     most = size * max(TAYLOR_REST, 2.0 ** (8 - ctx.prec))
 
-    def enough(parts: Sequence[Taylor], _: Fraction) -> bool:
-        return bool(parts[0][1] <= most)
+    def enough(rests: Sequence[arb], _: Fraction) -> bool:
+        return bool(rests[0] <= most)
 
-    several = cells(lambda s: [function(s)], arb_series, (start, stop), _LEAST, enough)
+    several = cells(lambda s: [function(s)], arb_series, (start, stop), _LEAST, by_rests=enough)
     parts = [(arb_poly(centre), rest) for _, [(centre, rest)] in several]
     return -greatest_magnitude(parts, (-1.0,)), greatest_magnitude(parts, (1.0,))
 
@@ -117,10 +117,11 @@ def cells(
     variable: Callable[[list[Any]], Any],
     ends: Ends,
     shortest: Fraction,
-    enough: Callable[[Sequence[Taylor], Fraction], bool],
+    enough: Callable[[Sequence[Taylor], Fraction], bool] = lambda *_: True,
     *,
     terms: int = _TERMS,
     most: float = _MOST,
+    by_rests: Callable[[Sequence[arb], Fraction], bool] = lambda *_: True,
 ) -> Iterator[tuple[Ends, list[Taylor]]]:
     """Many cells with Taylor polynomials of functions there, and their greatest errors.
 
@@ -141,27 +142,38 @@ def cells(
         How many terms there are at most.
     most
         After how many cells none is cut.
+    by_rests
+        Whether a cell need not be cut, from how far the functions are off their polynomials alone, and its length:
+        where it must be, no polynomial is computed.
     """
     left, count = [ends], 0
     while left:
         low, high = left.pop()
         middle, half = (low + high) / 2, ball((high - low) / 2)
         with series_length(terms + 1):
-            places = ball(middle), ball(low).union(ball(high))
-            pairs = zip(*(functions(variable([place, half])) for place in places), strict=True)
-            parts = [_taylor(about, around, terms) for about, around in pairs]
-        count += 1
-        if high - low < shortest or count > most or enough(parts, high - low):
+            around, count = functions(variable([ball(low).union(ball(high)), half])), count + 1
+            rests, last = [_rest(each, terms) for each in around], high - low < shortest or count > most
+            parts: list[Taylor] | None = None
+            if last or by_rests([rest for _, rest in rests], high - low):
+                about = functions(variable([ball(middle), half]))
+                parts = [_taylor(*each) for each in zip(about, around, rests, strict=True)]
+        if parts is not None and (last or enough(parts, high - low)):
             yield (low, high), parts
         else:
             left += [(low, middle), (middle, high)]
 
 
-def _taylor(about: Any, around: Any, terms: int) -> Taylor:
+def _rest(around: Any, terms: int) -> tuple[int, arb]:
+    """How many terms a function has on a cell, by its series there, and how far it is off them at most."""
     smooth = next((i for i in range(terms, 0, -1) if around[i].is_finite()), 0)
+    return smooth, abs(around[smooth]).upper() if smooth else around[0].rad()
+
+
+def _taylor(about: Any, around: Any, known: tuple[int, arb]) -> Taylor:
+    smooth, rest = known
     centre = [about[i] for i in range(smooth)]
     if smooth and all(value.is_finite() for value in centre):
-        return centre, abs(around[smooth]).upper()
+        return centre, rest
     return [around[0].mid()], around[0].rad()
 
 
@@ -280,12 +292,13 @@ def integrals(
         here = [value[0] for value in functions(arb_series([ball(middle)]))]
         small = (1 + sum((abs(value) for value in here if value.is_finite()), arb(0))) * ball(Fraction(1, 2**bits))
 
-        def enough(parts: Sequence[Taylor], length: Fraction) -> bool:
-            return bool(sum((rest for _, rest in parts), arb(0)) * ball(length / (high - low)) < small)
+        def enough(rests: Sequence[arb], length: Fraction) -> bool:
+            return bool(sum(rests, arb(0)) * ball(length / (high - low)) < small)
 
         wide = [[arb_poly(term) for term in column] for column in columns]
         shortest = (high - low) / 2**bits
-        for (start, stop), parts in cells(functions, arb_series, ends, shortest, enough, terms=max(8, bits // 2)):
+        several = cells(functions, arb_series, ends, shortest, terms=max(8, bits // 2), by_rests=enough)
+        for (start, stop), parts in several:
             cell = ball((start + stop - 2 * middle) / (high - low)), ball((stop - start) / (high - low))
             known = parts
             if rough is not None and not all(rest.is_finite() for _, rest in parts):
