@@ -409,7 +409,7 @@ export function createStrip({ moved = null, rested = () => {}, chosen = () => {}
       key: String(i), at: [at, 0.5], along: "x", low: low + step, high: (segments[i + 1]?.at[1] ?? range[1]) - step, step, keys: 1,
       label: `Where ${name} ends and ${segments[i + 1]?.name} begins`, text: place(at), name: "law-0 joint-handle",
     });
-    chart.show({
+    chart.show(segments.length === 0 ? null : {
       x: { range: span }, y: { range: [0, 1] }, margins: STRIP, height: 24, bare: true,
       zones: segments.map(({ name, at: [from, to] }, i) => ({ from, to, name: "bar", title: `${name}: ${place(from)} to ${place(to)}`, onclick: () => chosen(i) })),
       labels: segments.map(({ name, at: [from, to] }) => ({ at: [(Math.max(from, span[0]) + Math.min(to, span[1])) / 2, 0.5], up: -4, anchor: "middle", text: name, name: "name", within: to - from })),
