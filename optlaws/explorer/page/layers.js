@@ -168,7 +168,7 @@ export function drawLayers({ zones = [], lines = [], marks = [], labels = [] }, 
 
   const plain = marks.filter(({ text }) => text === undefined);
   const read = marks.filter(({ text }) => text !== undefined).map((mark) => svg("g", { class: mark.name }, drawMark({ ...mark, name: null }, placeOf), room(placeOf(mark.at), mark.text, mark) ?? titled(mark.text)));
-  const written = labels.filter(({ at, wide = 0, within, text }) => (!wide || toX(at[0]) - wide >= box.left) && (within === undefined || toX(within) - toX(0) > LETTER * text.length)).map((one) => (one.free ? room(placeOf(one.at), one.text, one) : drawLabel(one)));
+  const written = labels.filter(({ at, wide = 0, within, text }) => (!wide || toX(at[0]) - wide >= box.left) && (within === undefined || toX(within) - toX(0) > LETTER * text.length + 2 * HIGH)).map((one) => (one.free ? room(placeOf(one.at), one.text, one) : drawLabel(one)));
   return {
     ground: [
       svg("clipPath", { id: `inside-${name}` }, svg("rect", { x: box.left, y: box.top, width: Math.max(1, box.right - box.left), height: Math.max(1, box.bottom - box.top) })),
