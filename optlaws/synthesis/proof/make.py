@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 
@@ -100,6 +101,8 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
     # constants that are nowhere below 0 bound their sum without a contact
     proof = max(proof, Certificate.of_leaf(model.problem), key=lambda known: known.bound)
     if proof.bound == -np.inf:
+        proof = _with_falling_peaks(model, proof)
+    if proof.bound == -np.inf:
         proof = max((proof, *_leaving(model, optimum)), key=lambda known: known.bound)
     several = _Tangents(model, optimum).certificate(objective) if _needs_tangents(model) else None
     return several if several is not None and several.bound > proof.bound else proof
@@ -176,6 +179,27 @@ def _touching(model: Model, contact: Contact, change: Array) -> Contact:
     nothing = np.zeros_like(change)
     moved = np.subtract(family.touching(change, u), family.touching(nothing, u))
     return replace(contact, direction=tuple((np.array(contact.direction) + moved).tolist()))
+
+
+def _with_falling_peaks(model: Model, proof: Certificate) -> Certificate:
+    """The certificate whose multipliers hold what may fall for ever, a peak of one side, exactly: they are its weight.
+
+    The lightest is tried first, whose last bit is finest.
+    """
+    least, contacts = Sublevel.of(model).least_values(), list(proof.contacts)
+    rows = [row_of(model.program, contact)[0] for contact in contacts]
+    for name, weight in model.problem.objective.weights().items():
+        place = model.places.get(name)
+        if place is None or least.get(name) != -np.inf:
+            continue
+        holding = [i for i, contact in enumerate(contacts) if contact.multiplier > 0.0 and rows[i][place] < 0.0]
+        rest = Fraction(weight) - sum(Fraction(contacts[i].multiplier) for i in holding)
+        for i in sorted(holding, key=lambda i: contacts[i].multiplier):
+            exact = Fraction(contacts[i].multiplier) + rest
+            if exact > 0 and Fraction(float(exact)) == exact:
+                contacts[i] = replace(contacts[i], multiplier=float(exact))
+                break
+    return proof.with_leaf(contacts=contacts)
 
 
 def _leaving(model: Model, optimum: ActiveSet) -> Iterator[Certificate]:
