@@ -126,6 +126,7 @@ def test_tests_look_inside_a_room_through_one_file() -> None:
 
 #: words that say nothing of what a thing is
 VAGUE = {"asked", "said", "told", "made", "held", "wanted", "kept", "own", "found", "one"}
+NAMED_BY = {"id", "arg", "name", "attr"}
 ROOMS = sorted(
     path for path in (ROOT / "optlaws").iterdir() if path.suffix == ".py" or (path / "__init__.py").is_file()
 )
@@ -138,7 +139,7 @@ def vague_names(source: str) -> set[str]:
 
 def vague_names_of(node: ast.AST) -> set[str]:
     """Those of one node."""
-    return VAGUE.intersection(getattr(node, entry, None) for entry in ("id", "arg", "name", "attr"))
+    return VAGUE.intersection([getattr(node, entry) for entry in node._fields if entry in NAMED_BY])
 
 
 @pytest.mark.parametrize("room", ROOMS, ids=lambda path: path.stem)
