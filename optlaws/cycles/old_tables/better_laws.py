@@ -30,11 +30,12 @@ _JERK = 1.2  # of an old law's greatest jerk: what a law of less acceleration in
 _RAMP = 0.1  # of a move: over so much of it a jump of the acceleration at its end is taken
 _SAME = 1e-6  # of a greatest velocity or acceleration: what differs by less is the same
 _LEAST_GAIN = 1e-3  # of an acceleration: for less no law is replaced, as the rounding of a table may show so much
-_BETWEEN = 1e-3  # of a tolerance: what is left at places, so that a law is within all of it between them
-_SETTLED = 5  # rounds after which more is left, twice as much in each
+_SETTLED = 1e-9  # of a tolerance: a law that is no farther beyond it is so by rounding alone
+_PATIENT = 8  # rounds after which it may be ten times as far in each
+_SYMMETRIC = 1e-6  # of a tolerance: by how much a law may differ from its mirror image
 _FIRST = 8  # parts between the places with which the search begins
 _APART = 2e-3  # of a move: places that are nearer to a new one give way to it
-_ROUNDS = 13
+_ROUNDS = 15
 _LOOKS = 800  # places at which the difference of two laws is looked at for its extremes
 _FREE = 4  # the order up to which derivatives are left free at one end and given at the other
 _MOST = 0.25  # of a stroke: tolerances beyond it are none
@@ -206,8 +207,10 @@ def _enough(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) -
 def _least(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) -> Solution | None:
     """The law of least acceleration within a share of the stroke of an old one; None where none has less.
 
-    It is found by cutting planes: asked at a few places, which those join where it is beyond the tolerance. Its jerk is
-    bounded by that of the old law, or by what takes its jumps at the ends over a part of the move.
+    It is found by cutting planes: asked at a few places, which those join where it is beyond the tolerance. They have
+    the tolerance itself, so that the bound of the solution is that of all laws within it; less by twice what rounding
+    leaves a law beyond it at last. Its jerk is bounded by that of the old law, or by what takes its jumps at the ends
+    over a part of the move.
     """
     C, J = old.constants.C.value, old.constants.J.value
     jumps = [abs(was[2] - now) for was, state in zip(old.boundary_values(3), ends, strict=True) for now in state[2:3]]
@@ -220,13 +223,13 @@ def _least(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) ->
     k = np.linspace(0.0, 0.5, _LOOKS)
     turned = np.abs(np.asarray(old(k)) + np.asarray(old(1.0 - k)) - 1.0)
     # the mean of a law and its mirror image is no worse
-    symmetric = conditions == BoundaryConditions.rest(order) and float(turned.max()) <= _BETWEEN * _BETWEEN * share
+    symmetric = conditions == BoundaryConditions.rest(order) and float(turned.max()) <= _SYMMETRIC * share
     basis = Chebyshev(degree + 2 * (order - same))
     places = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, _FIRST) / _FIRST)
-    solution = None
+    solution, room = None, share
     for count in range(_ROUNDS):
         places = places[places < 0.5] if symmetric else places
-        heights, room = np.asarray(old(places)), share * (1.0 - _BETWEEN * 2.0 ** max(count - _SETTLED, 0))
+        heights = np.asarray(old(places))
         windows = [
             Window("a", height - room, height + room, k, k)
             for k, height in zip(places.tolist(), heights.tolist(), strict=True)
@@ -242,6 +245,9 @@ def _least(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) ->
         apart, farthest = _farthest(law, old)
         if apart <= share:
             return solution
+        if apart <= share * (1.0 + _SETTLED * 10.0 ** max(count - _PATIENT, 0)):
+            room -= 2.0 * (apart - share)
+            continue
         beyond = _beyond(law, old, share, farthest)
         binding = np.abs(np.asarray(law(places)) - heights) > 0.95 * room
         near = np.abs(places[:, None] - beyond).min(axis=1) <= _APART
