@@ -181,3 +181,17 @@ def test_a_peak_that_a_table_cannot_tell_is_said_to_be_unknown() -> None:
     assert (move.start, move.stop, move.low, move.high) == (175.0, 180.0, 0.0, 10.0)
     assert not move.peaks[1].is_known
     assert not table.peaks[2].is_known
+
+
+def test_a_move_about_a_constant_velocity_ends_where_this_goes_on() -> None:
+    """The velocity is negative in a part of the second move: it turns there, slowly, but rests nowhere."""
+    x = np.arange(0.0, 360.1, 0.2)
+    exact = x / 9.0 + 5.0 * (QUINTIC(np.clip((x - 30.0) / 80.0, 0, 1)) - QUINTIC(np.clip((x - 200.0) / 60.0, 0, 1)))
+    table = split_table(x, np.round(exact + np.random.default_rng(3).normal(0.0, 0.002, len(x)), 4))
+    steady = [part for part in table.stretches if part.law == "constant velocity"]
+    assert len(steady) >= 2
+    ends = [end for part in steady for end in (part.start, part.stop)]
+    assert [min(ends, key=lambda end: abs(end - at)) for at in (200.0, 260.0)] == pytest.approx([200.0, 260.0], abs=1.0)
+    peak = 5.0 * 10.0 / np.sqrt(3.0) / 60.0**2
+    assert table.peaks[1].holds(peak)
+    assert table.peaks[1].high < 1.1 * peak

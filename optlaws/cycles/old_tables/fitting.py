@@ -18,6 +18,8 @@ from optlaws.numbers import Array
 DEGREE = 5
 #: pieces of a spline that is simple enough to stand beside standard laws, at most
 SIMPLE = 6
+#: variance about a spline, over that of the noise: it is no model
+UNRESOLVED = 9.0
 #: numbers of pieces that are tried
 _PIECES = (1, 2, 3, 4, 5, 6, 8, 10, 13, 17, 22, 29, 38, 50)
 #: rows for each coefficient at least
@@ -180,6 +182,25 @@ def _basis(knots: Array, places: Array, degree: int = DEGREE, nu: int = 0) -> Ar
     return np.asarray(rows @ turned, dtype=np.float64) if nu else rows
 
 
+def _condensed(knots: Array, places: Array, heights: Array, weights: Array, degree: int) -> Array:
+    """Few equations for the coefficients of a spline, with right sides, whose squares sum up as those of all rows do.
+
+    The rows of a piece have a column for each of its B-splines and one for the heights: their triangular factor does.
+    """
+    width, count = degree + 1, len(knots) - degree - 1
+    matrix = BSpline.design_matrix(places, knots, degree)
+    firsts, starts, counts = np.unique(matrix.indices[::width], return_index=True, return_counts=True)
+    piece = np.repeat(np.arange(len(firsts)), counts)
+    blocks = np.zeros((len(firsts), max(counts.max(initial=0), width + 1), width + 1))
+    rows = np.column_stack([matrix.data.reshape(-1, width), heights]) * weights[:, None]
+    blocks[piece, np.arange(len(places)) - starts[piece]] = rows
+    factors: Array = np.asarray(np.linalg.qr(blocks, mode="r"))
+    few = np.zeros((len(firsts), width + 1, count + 1))
+    columns = np.column_stack([firsts[:, None] + np.arange(width), np.full(len(firsts), count)])
+    np.put_along_axis(few, np.broadcast_to(columns[:, None, :], factors.shape), factors, axis=2)
+    return few.reshape(-1, count + 1)
+
+
 def _knots(start: float, stop: float, joints: Sequence[Joint], pieces: int, degree: int = DEGREE) -> Array:
     """Knots of about as many pieces, even between joints."""
     ends = [start, *(joint.place for joint in joints), stop]
@@ -217,33 +238,27 @@ class _Fitter:
         """The sum of squares, the number of parameters, and with `whole` the fit."""
         joints = tuple(joint for joint in joints if start < joint.place < stop)
         knots = _knots(start, stop, joints, pieces, self.degree)
-        count = len(knots) - self.degree - 1
         inside = (self.x >= start) & (self.x <= stop)
         outside = 0.0
         for end, away in ((self.ends[0], self.x < start), (self.ends[1], self.x > stop)):
             if end.line is not None:
                 outside += float((((self.y[away] - end.value(self.x[away])) / self.noise[away]) ** 2).sum())
         turned, coefficients = self._known(knots)
-        rows = _basis(knots, self.x[inside], self.degree) if inside.any() else np.zeros((0, count))
-        weights = 1.0 / self.noise[inside]
-        left = (self.y[inside] - rows @ coefficients) * weights
-        matrix = (rows @ turned) * weights[:, None]
         free = turned.shape[1]
         parameters = free + len(joints) + sum(end.line is not None for end in self.ends)
-        if len(left) < free:
+        if int(inside.sum()) < free:
             return np.inf, parameters, None
-        q, r = np.linalg.qr(matrix)
-        size = np.abs(np.diag(r))
-        if size.size and size.min() <= 1e-10 * size.max():
+        few = _condensed(knots, self.x[inside], self.y[inside], 1.0 / self.noise[inside], self.degree)
+        left = few[:, -1:] - few[:, :-1] @ coefficients[:, None]
+        r: Array = np.asarray(np.linalg.qr(np.hstack([few[:, :-1] @ turned, left]), mode="r"))
+        size = np.abs(np.diag(r)[:free])
+        if len(r) < free or (free and size.min() <= 1e-10 * size.max()):
             return np.inf, parameters, None
-        along = q.T @ left
-        squares = max(float(left @ left - along @ along), 0.0) + outside
+        squares = outside + (float(r[free, free]) ** 2 if len(r) > free else 0.0)
         if not whole:
             return squares, parameters, None
-        coefficients = coefficients + turned @ np.linalg.solve(r, along)
-        factor = turned @ np.linalg.inv(r)
-        squares = float((((rows @ coefficients - self.y[inside]) * weights) ** 2).sum()) + outside
-        spline = BSpline(knots, coefficients, self.degree)
+        factor = turned @ np.linalg.inv(r[:free, :free])
+        spline = BSpline(knots, coefficients + factor @ r[:free, free], self.degree)
         return (
             squares,
             parameters,
@@ -539,7 +554,8 @@ class _Search:
                 continue
             fits.append(fit)
             least = min(fit.criterion(2.0) for fit in fits)
-            if len(fits) > 3 and all(fit.criterion(2.0) > least + 2.0 for fit in fits[-2:]):
+            resolved = any(fit.variance <= UNRESOLVED for fit in fits)
+            if resolved and len(fits) > 3 and all(fit.criterion(2.0) > least + 2.0 for fit in fits[-2:]):
                 break
         return fits
 

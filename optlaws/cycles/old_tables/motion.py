@@ -11,7 +11,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from optlaws.cycles.old_tables.fitting import SIMPLE, CurveFit, End, fits_of, interpolation, likely
+from optlaws.cycles.old_tables.fitting import SIMPLE, UNRESOLVED, CurveFit, End, fits_of, interpolation, likely
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
 from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on, window_polynomials
 from optlaws.cycles.old_tables.standard import Chain, Outline, criterion, spline_of
@@ -33,8 +33,6 @@ _UNLIKELY = 1e-3
 _UNCERTAIN = 3.0
 #: of a peak of a standard law, by which places of its ends that are rounded may change it
 _ROUNDED_LAW = 1e-3
-#: variance about a spline of more than half as many coefficients as rows, over that of the noise: it is no model
-_UNRESOLVED = 9.0
 #: of the length of a turn: what is shorter is no move of its own, and places that are nearer are the same
 SHORTEST, _SAME = 1.0 / 3600.0, 1e-9
 #: times what the means of windows show of a derivative that a fit has not, for means are less than peaks
@@ -226,33 +224,43 @@ def lines_of(samples: Samples, first: int, last: int) -> list[Line]:
     bent = window_polynomials(sliding_window_view(x, rows), 3)[:, :, 2:]
     bends = np.einsum("ijk,ij->ik", bent, sliding_window_view(y, rows))
     straight = (bends**2).sum(axis=1) <= _BENT * size**2
-    lines = []
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], straight.astype(int), [0]])))
-    for begin, end in zip(edges[::2], edges[1::2], strict=True):
-        low, high = int(begin), int(end) - 1 + rows - 1
+    lines = list[Line]()
+    windows = np.flatnonzero(straight)
+    # noise alone makes few windows beside each other bent
+    for run in np.split(windows, np.flatnonzero(np.diff(windows) > rows // 2) + 1) if windows.size else ():
+        low, high = int(run[0]), int(run[-1]) + rows - 1
         trim = max(1, (high - low) // 20)
         while high - low + 1 >= max(_WINDOW, count * _SHARE):
-            line = _straight(x[low : high + 1], y[low : high + 1], float(size.max()))
-            if line is not None:
-                lines.append(Line(first + low, first + high, *line))
+            if _is_straight(x[low : high + 1], y[low : high + 1], float(size.max())):
+                line, low, high = _line(x, y, NOISE_ROOM * noise + 0.5 * samples.digit, low, high)
+                if not lines or first + low > lines[-1].last:
+                    lines.append(Line(first + low, first + high, *line))
                 break
             low, high = low + trim, high - trim
     return lines
 
 
-def _straight(x: Array, y: Array, noise: float) -> tuple[float, float, float] | None:
-    """The level at a place and the slope of rows on a line; None where they are bent."""
+def _is_straight(x: Array, y: Array, noise: float) -> bool:
+    """Whether rows are on a line as far as the noise tells."""
     u = 2.0 * (x - x[0]) / (x[-1] - x[0]) - 1.0
     left = []
     for degree in (1, 4):
         fit = np.polynomial.Polynomial.fit(u, y, degree, domain=[-1.0, 1.0])
         left.append(float(((y - fit(u)) ** 2).sum()))
-    if left[0] - left[1] > 1.5 * _BENT * noise**2:
-        return None
-    # the moves beside it may reach into its ends
-    inner = slice(len(x) // 4, len(x) - len(x) // 4)
-    slope, level = np.polyfit(x[inner] - x[inner].mean(), y[inner], 1)
-    return float(level), float(x[inner].mean()), float(slope)
+    return left[0] - left[1] <= 1.5 * _BENT * noise**2
+
+
+def _line(x: Array, y: Array, room: Array, low: int, high: int) -> tuple[tuple[float, float, float], int, int]:
+    """The line of straight rows, with its level at a place and its slope, and the rows from and to which it goes on."""
+    for parts in (4, 8):  # the moves beside it may reach into its ends
+        inner = slice(low + (high - low) // parts, high + 1 - (high - low) // parts)
+        place = float(x[inner].mean())
+        slope, level = map(float, np.polyfit(x[inner] - place, y[inner], 1))
+        apart = np.abs(y - level - slope * (x - place)) > room
+        beyond = np.flatnonzero(apart[:-1] & apart[1:])  # noise alone puts single rows there
+        low = int(beyond[beyond < inner.start].max(initial=-2)) + 2
+        high = int(beyond[beyond >= inner.stop].min(initial=len(x))) - 1
+    return (level, place, slope), low, high
 
 
 def motion_of(samples: Samples) -> FittedMotion:
@@ -351,7 +359,8 @@ def _begun(samples: Samples, crests: Sequence[float], advance: float) -> tuple[S
     long = whole and min(rests[0].last, last - rests[-1].first) >= 2 * _FEWEST
     if long or not goes_on(samples.places, samples.heights, samples.noise):
         return samples, rests
-    lines = rests or lines_of(samples, 0, last)
+    # where a motion advances, what looks like a rest may be where it turns
+    lines = [*rests, *(lines_of(samples, 0, last) if advance or not rests else [])]
     if lines:
         longest = max(lines, key=lambda line: line.last - line.first)
         row = (longest.first + longest.last) // 2
@@ -395,6 +404,7 @@ class _Region:
         """The moves of the region."""
         x, y = self.x, self.y
         if self.rows <= _FEWEST_MOVING:
+            total[1] += len(x) - self.rows
             yield from self._of_fits((), self.about, [""])
             return
         turns = _turning_points(y, 2.0 * NOISE_ROOM * float(self.noise.max()) + 2.0 * self.digit)
@@ -415,12 +425,13 @@ class _Region:
         if at_seam is not None:
             self.ends = at_seam
             fits = tuple(fits_of(x, y, self.noise, self.ends, self.advance, simple=plain))
-        if fits and len(x) < 2 * fits[0].free and fits[0].variance > _UNRESOLVED:
+        if fits and len(x) < 2 * fits[0].free and fits[0].variance > UNRESOLVED:
             fits = ()
         near = [name for name in chain.names if name] if chain else [""] * (len(places) - 1)
         if chain is not None and not (self._explains(chain, fits[0]) if fits else plain):
             chain = None
-        if chain is None and self.split and (not fits or fits[0].pieces > SIMPLE or fits[0].joints):
+        simple = bool(fits) and fits[0].pieces <= SIMPLE and not fits[0].joints and fits[0].variance <= UNRESOLVED
+        if chain is None and self.split and not simple:
             parts, counts = self._straight_parts()
             simpler = criterion(counts[0], round(len(x) - counts[1]), len(x))
             if parts and (not fits or simpler < fits[0].criterion(float(np.log(len(x))))):
