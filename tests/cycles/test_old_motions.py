@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from optlaws import InputError, catalogue, read_cycle_table, split_table
+from tests.internals.cycles import OldTableReport
 
 QUINTIC = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
 
@@ -195,3 +196,17 @@ def test_a_move_about_a_constant_velocity_ends_where_this_goes_on() -> None:
     peak = 5.0 * 10.0 / np.sqrt(3.0) / 60.0**2
     assert table.peaks[1].holds(peak)
     assert table.peaks[1].high < 1.1 * peak
+
+
+def test_corners_are_listed_with_their_places() -> None:
+    x = np.arange(0.0, 360.1, 0.5)
+    law = catalogue["modified sine"].law
+    lift = 20.0 * (np.clip((x - 41.3) / 77.0, 0, 1) - law(np.clip((x - 200.0) / 100.0, 0, 1)))
+    table = split_table(x, np.round(lift + np.random.default_rng(2).normal(0.0, 0.003, len(x)), 4))
+    assert table.corners == pytest.approx([41.3, 118.3], abs=0.05)
+    assert "the velocity jumps at 41.3 deg, 118.3 deg" in str(table)
+    assert OldTableReport(table).data["corners"] == list(table.corners)
+    rests = split_table(x, np.round(20.0 * (law(np.clip(x / 90.0, 0, 1)) - law(np.clip((x - 200.0) / 100.0, 0, 1))), 4))
+    assert rests.corners == ()
+    arches = split_table(x, np.round(np.abs(np.sin(np.radians(x))), 6))
+    assert arches.corners == pytest.approx([0.0, 180.0], abs=1e-6)

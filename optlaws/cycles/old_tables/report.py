@@ -128,6 +128,7 @@ class OldTableReport:
         known = {name: getattr(old, name) for name in ("unit", "master", "room", "scatter", "seam")}
         peaks = [_plain(interval) for interval in old.peaks]
         facts = {"layout": old.layout, "points": len(old.places), **known, "stretches": stretches, "peaks": peaks}
+        facts["corners"] = list(old.corners)
         facts["outliers"] = [float(old.places[i]) for i in old.outliers]
         if new is None:
             return facts

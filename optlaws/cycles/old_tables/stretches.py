@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
@@ -21,6 +21,8 @@ StretchKind: TypeAlias = Literal["dwell", "rise", "return"]
 
 #: of a move: breaks that are nearer to its ends are these
 _APART = 1e-9
+#: of the greatest velocity: by so much it jumps at a corner
+_JUMP = 1e-3
 
 
 @dataclass(frozen=True)
@@ -131,6 +133,21 @@ def position(part: Stretch, places: Array) -> Array:
     """The positions of a stretch at places within it."""
     k = np.clip((places - part.start) / (part.stop - part.start), 0.0, 1.0)
     return part.low + (0.0 * k if part.law is None else part.stroke * np.asarray(law_of_move(part)(k)))
+
+
+def corners_of(stretches: Sequence[Stretch]) -> tuple[float, ...]:
+    """The places at which the velocity jumps in a turn of stretches, also from its end to its beginning."""
+    places, before, after = list[float](), list[float](), list[float]()
+    for part in stretches:
+        law = None if part.law is None else law_of_move(part)
+        k = np.array([0.0, 1.0] if law is None else law.breaks)
+        slope = part.stroke / (part.stop - part.start)
+        sides = (np.nextafter(k[1:], 0.0), np.nextafter(k[:-1], 1.0))
+        ends, begins = (0.0 * at if law is None else slope * np.asarray(law(at, 1)) for at in sides)
+        places += (part.start + (part.stop - part.start) * k[:-1]).tolist()
+        before, after = before + ends.tolist(), after + begins.tolist()
+    jumps = np.abs(np.array(after) - np.roll(before, 1))
+    return tuple(np.array(places)[jumps > _JUMP * np.abs([before, after]).max()].tolist())
 
 
 def law_of_move(part: Stretch) -> MotionLaw:

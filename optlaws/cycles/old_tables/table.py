@@ -18,7 +18,7 @@ from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.reading import points_in
 from optlaws.cycles.old_tables.samples import samples_of
 from optlaws.cycles.old_tables.stated_functions import stretches_of_pieces
-from optlaws.cycles.old_tables.stretches import Stretch, law_of_move, position, seam_of, stretches_of
+from optlaws.cycles.old_tables.stretches import Stretch, corners_of, law_of_move, position, seam_of, stretches_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, Rise
 from optlaws.errors import InputError, located
 from optlaws.files import reading
@@ -32,7 +32,7 @@ from optlaws.sentences import Amount, joined, sentence
 from optlaws.tolerances import AGREEMENT
 
 _TIMES = {"s", "ms"}
-_MOST_NAMED = 8  # points that are left out
+_MOST_NAMED = 8  # places that a remark lists
 _MOVING = 1e-3  # of the greatest velocity of a stretch: it begins with one that is more
 _WHOLE_TURN = 1e-6  # of a turn: by how much rows that are one may be longer or shorter
 _LESS_NOISE = 0.5  # of the noise by differences: where rows are nearer to the fitted motion that is the noise
@@ -262,6 +262,18 @@ class OldTable:
         return float(apart[worst]), float(self.places[worst])
 
     @property
+    def corners(self) -> tuple[float, ...]:
+        """The places at which the velocity of its laws jumps, that of its end too where this does not meet its start.
+
+        Examples
+        --------
+        >>> x = np.arange(0.0, 361.0, 5.0)
+        >>> split_table(x, np.clip(x, 30.0, 100.0) - np.clip(0.5 * x, 80.0, 150.0)).corners
+        (30.0, 100.0, 160.0, 300.0)
+        """
+        return corners_of(self.stretches)
+
+    @property
     def peaks(self) -> tuple[PeakInterval, ...]:
         """Between which values the peaks of velocity, acceleration and jerk by the master are, of all moves."""
         of_moves = [part.peaks for part in self.moves if part.peaks]
@@ -305,14 +317,18 @@ class OldTable:
             )
         if self.peaks:
             remarks.append(sentence("greatest {}", joined(", ", map(self.peak_in_words, (1, 2, 3)))))
+        if self.corners:
+            remarks.append(sentence("the velocity jumps at {}", self._named(self.corners)))
         if self.outliers:
-            named = joined(", ", [Amount(float(self.places[i]), self.master) for i in self.outliers[:_MOST_NAMED]])
-            more = len(self.outliers) - _MOST_NAMED
-            others = f" and {more} others" if more > 0 else ""
-            remarks.append(sentence("far off the motion and left out: the points at {}{}", named, others))
+            far = self._named(self.places[list(self.outliers)].tolist())
+            remarks.append(sentence("far off the motion and left out: the points at {}", far))
         if self.seam:
             remarks.append(sentence("the last position is {} from the first one", Amount(self.seam, self.unit, 3)))
         return tuple(remarks)
+
+    def _named(self, places: Sequence[float]) -> str:
+        named, more = joined(", ", [Amount(x, self.master) for x in places[:_MOST_NAMED]]), len(places) - _MOST_NAMED
+        return sentence("{} and {} others", named, more) if more > 0 else named
 
     @property
     def _moves_where_it_begins(self) -> bool:
