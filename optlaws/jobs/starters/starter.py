@@ -12,32 +12,14 @@ from shlex import quote
 from textwrap import fill
 from typing import Any
 
-from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.rollers import TranslatingRoller
-from optlaws.cams.springs_and_flywheels import least_spring
-from optlaws.cycles.axes.interlock import After
-from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.specification.segments import Dwell, Return, Rise
-from optlaws.entries.declared import Declared
 from optlaws.entries.reference import sentences
 from optlaws.entries.value_types import Measured, Number, Whole
 from optlaws.errors import InputError, located
 from optlaws.files.reading import check_names
-from optlaws.jobs.cam_entries import CamProblemFile
-from optlaws.jobs.cycle_entries import CycleProblemFile, read_given
-from optlaws.jobs.fastest import FastestProblemFile
-from optlaws.jobs.machine_laws import MachineLawsProblemFile
-from optlaws.jobs.solutions import SolutionsProblemFile
 from optlaws.jobs.starters.starter_numbers import DERIVATIVES, TYPES, numbers_of
 from optlaws.laws.catalogue.catalogue import USUAL, catalogue
-from optlaws.mechanisms.drives.drive_train import Drive
-from optlaws.mechanisms.drives.motor import Motor
-from optlaws.mechanisms.linkages.mechanism import Mechanism
-from optlaws.mechanisms.linkages.mechanism_kinds import Loads
-from optlaws.mechanisms.linkages.plane_linkages import SliderCrank
+from optlaws.lazy import imported
 from optlaws.motion.quantities import DIMENSIONS, Exact, either, in_small_units, quantity
-from optlaws.studies.problem_entries import problem
-from optlaws.studies.specification import StudyFile, read_study
 
 #: answers by the names of questions; None where an entry is left out
 Answers = dict[str, str | None]
@@ -77,11 +59,9 @@ class Starter:
     kind: str
     command: str  #: of `optlaws`, which runs the file
     derived: Callable[[Answers], Answers]  #: further answers that follow from those given
-    check: Callable[[Mapping[str, Any], Path], object]  #: refuses the entries of a file that could not be run
-    value: type[Declared]  #: what the file is read as: a # alone stands for what the entry below it says
-    tables: Mapping[str, type[Declared]] = field(
-        default_factory=dict
-    )  #: what its tables are read as, by their headings
+    check: Callable[[Any, Mapping[str, Any], Path], object]  #: refuses entries, to be read as `value`, of no use
+    value: str  #: what the file is read as, behind "optlaws.": a # alone stands for what the entry below it says
+    tables: Mapping[str, str] = field(default_factory=dict)  #: what its tables are read as, by their headings
 
     def run(self, file: Path) -> str:
         """The command behind `optlaws` that runs a file."""
@@ -95,18 +75,24 @@ class Starter:
         typed: Answers = {name: _read(text, name) for name, text in given.items()}
         answers = usual | typed
         answers |= self.derived(answers) | {"run": self.run(file)}
-        about = sentences(self.value)
+        about = sentences(_of_name(self.value))
         lines = (_FOLDER / f"{self.kind}.toml").read_text("utf-8").splitlines()
         for i, line in enumerate(lines):
             if line.startswith("["):
-                about = sentences(self.tables.get(line.strip("[]"), self.value))
+                about = sentences(_of_name(self.tables.get(line.strip("[]"), self.value)))
             if line == "#":
                 name = lines[i + 1].lstrip("# ").partition(" ")[0]
                 lines[i] = fill(about[name], 120, initial_indent="# ", subsequent_indent="# ")
         text = "\n".join(_filled(line, answers) for line in lines) + "\n"
         with located(str(file)):
-            self.check(tomllib.loads(text), file)
+            self.check(_of_name(self.value), tomllib.loads(text), file)
         return text
+
+
+def _of_name(name: str) -> Any:
+    """What a kind needs of optlaws, imported where that kind is begun."""
+    module, _, name = name.rpartition(".")
+    return getattr(imported(f"optlaws.{module}"), name)
 
 
 def _filled(line: str, answers: Answers) -> str:
@@ -181,6 +167,12 @@ def _of_cam(answers: Answers) -> Answers:
 
 def _spring_of_usual(answers: Answers) -> Answers:
     """A spring with which modified sine stays on the cam, stiffer than the least, with some force to spare."""
+    from optlaws.cams.disc import DiscCam
+    from optlaws.cams.followers.rollers import TranslatingRoller
+    from optlaws.cams.springs_and_flywheels import least_spring
+    from optlaws.cycles.cycle import Cycle
+    from optlaws.cycles.specification.segments import Dwell, Return, Rise
+
     rise, dwell, back = (str(answers[name]) for name in ("rise", "dwell", "return"))
     moves = [Rise(str(answers["stroke"]), rise, law=USUAL), Dwell(dwell), Return(duration=back, law=USUAL), Dwell()]
     cycle, drive = Cycle(moves, speed=answers["speed"]), {"mass": answers["mass"]}
@@ -260,32 +252,45 @@ def _of_study(answers: Answers) -> Answers:
     return {"modified_sine_J": f"{_usual('J'):.5g}", "J": None}
 
 
+def _read_axes(_: Any, entries: Mapping[str, Any], file: Path) -> object:
+    return _of_name("jobs.cycle_entries.read_given")(entries, file)
+
+
+def _read_problem(of: Any, entries: Mapping[str, Any], file: Path) -> object:
+    return _of_name("studies.problem_entries.problem")("problem", of.read(entries, file).problem)
+
+
+def _read_alone(of: Any, entries: Mapping[str, Any], file: Path) -> object:
+    return of.read(entries, file)
+
+
+_CYCLE, _LINKAGES = "jobs.cycle_entries.CycleProblemFile", "mechanisms.linkages"
+_DRIVEN = {
+    "axis.mechanism": f"{_LINKAGES}.mechanism.Mechanism",
+    "axis.drive": "mechanisms.drives.drive_train.Drive",
+    "axis.drive.motor": "mechanisms.drives.motor.Motor",
+}
+_SLIDES = {
+    "axis.mechanism": f"{_LINKAGES}.plane_linkages.SliderCrank",
+    "axis.mechanism.loads": f"{_LINKAGES}.mechanism_kinds.Loads",
+}
 _KINDS = [
-    Starter("cycle", "cycle", _of_cycle, read_given, CycleProblemFile),
-    Starter("cam", "run", _of_cam, lambda entries, file: CamProblemFile.read(entries, file).cycle, CamProblemFile),
+    Starter("cycle", "cycle", _of_cycle, _read_axes, _CYCLE),
     Starter(
-        "drive", "cycle", _of_drive, read_given, CycleProblemFile,
-        {"axis.mechanism": Mechanism, "axis.drive": Drive, "axis.drive.motor": Motor},
+        "cam", "run", _of_cam, lambda of, entries, file: of.read(entries, file).cycle, "jobs.cam_entries.CamProblemFile"
     ),
-    Starter(
-        "mechanism", "cycle", _of_mechanism, read_given, CycleProblemFile,
-        {"axis.mechanism": SliderCrank, "axis.mechanism.loads": Loads},
-    ),
-    Starter(
-        "fastest", "run", _of_fastest, FastestProblemFile.read, FastestProblemFile,
-    ),
-    Starter(
-        "interlock", "cycle", _of_interlock, read_given, CycleProblemFile, {"interlocks": After},
-    ),
+    Starter("drive", "cycle", _of_drive, _read_axes, _CYCLE, _DRIVEN),
+    Starter("mechanism", "cycle", _of_mechanism, _read_axes, _CYCLE, _SLIDES),
+    Starter("fastest", "run", _of_fastest, _read_alone, "jobs.fastest.FastestProblemFile"),
+    Starter("interlock", "cycle", _of_interlock, _read_axes, _CYCLE, {"interlocks": "cycles.axes.interlock.After"}),
     Starter(
         "machine", "run", _of_machine,
-        lambda entries, file: MachineLawsProblemFile.read(entries, file).machine.machine(), MachineLawsProblemFile,
+        lambda of, entries, file: of.read(entries, file).machine.machine(), "jobs.machine_laws.MachineLawsProblemFile",
     ),
+    Starter("law", "run", _of_law, _read_problem, "jobs.solutions.SolutionsProblemFile"),
     Starter(
-        "law", "run", _of_law,
-        lambda entries, file: problem("problem", SolutionsProblemFile.read(entries, file).problem),
-        SolutionsProblemFile,
+        "study", "study", _of_study, lambda _, entries, __: _of_name("studies.specification.read_study")(entries),
+        "studies.specification.StudyFile",
     ),
-    Starter("study", "study", _of_study, lambda entries, _: read_study(entries), StudyFile),
 ]  # fmt: skip
 STARTERS: dict[str, Starter] = {starter.kind: starter for starter in _KINDS}

@@ -511,11 +511,6 @@ class StrokeTorque:
         return self.unit**2 * self.duration * self.train.copper / self.energy_unit
 
     @property
-    def power_unit(self) -> float:
-        """The unit of torque times b, W."""
-        return self.unit * self.train.ratio * abs(self.stroke) / self.duration
-
-    @property
     def energy_unit(self) -> float:
         """The unit of an integral of torque times b over k, J."""
         return self.unit * self.train.ratio * abs(self.stroke)
