@@ -110,7 +110,8 @@ class Multipliers:
         ends, constant = [], bound
         for i in (i for i, rates in enumerate(move.moving) if any(rates)):
             doubled = tuple(2.0 * each if i == j else each for j, each in enumerate(powers))
-            share = replace(proof, problem=move.shares(duration, ends=doubled)).bound - bound
+            # the sums themselves: a bound would be raised to what no law is below
+            share = replace(proof, problem=move.shares(duration, ends=doubled)).estimate - proof.estimate
             ends.append((i + 1, share / powers[i]))
             constant -= share
         return cls(proof, weights, constant, tuple(ends))

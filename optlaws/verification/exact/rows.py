@@ -253,10 +253,12 @@ class ExactRows:
             self._add(name, lambda contact, _: limit.row(value / whole for value in columns(contact.direction)))
             return
         root = isinstance(constant, FormulaRms)
+        if root and switches(motion.formula, ORDERS):
+            raise InputError(f"there are no exact rows for {name}: it is the root mean square of a formula with kinks")
         unit = ball(constant.length).sqrt() if isinstance(constant, FormulaRms) else arb(1)
 
         def make(contact: Contact, _: Fraction) -> BallRow:
-            if not root and switches(motion.formula, ORDERS):
+            if switches(motion.formula, ORDERS):
                 return limit.row(straight_integral(self.space, motion, contact.direction))
             squares = squared(motion) if root else motion
             columns = tangent_integral(self.space, squares, contact.direction, root=root)
