@@ -42,7 +42,7 @@ _SIMPLE = 4
 #: of a step: how near the ends of rests are looked for, in the end and in searches
 _FINE, _ROUGH = 0.02, 0.2
 #: degrees of one polynomial for a whole move, and how many derivatives it may have in common with the rests beside it
-_DEGREES, _CONTACTS = range(7, 20, 2), (3, 2)
+_DEGREES, _CONTACTS = range(7, 34, 2), (3, 2)
 #: of a step: ends of rests beside one polynomial are no nearer; and how often they are moved at most
 _EXACT, _ENDS_MOVED = 1e-9, 40
 #: steps to which places are rounded where the rows allow it, in parts of a turn
@@ -574,6 +574,9 @@ class _Search:
                 at = fitter.polynomial_ends(at)
                 fit = fitter.solved(*at, (), 1, whole=True)[2]
                 fits += [] if fit is None else [fit]
+                best = self.best(fits) if fits else None
+                if len(fits) > 3 and all(other is not best for other in fits[-3:]):
+                    break
             families += [fits] if fits else []
         return min(families, key=lambda fits: self.criterion(self.best(fits)), default=[])
 
