@@ -32,7 +32,7 @@ from optlaws.motion.piece import Piece, jump_beside, unit_of
 from optlaws.motion.quantities import QUANTITIES, Exact, Kind
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, joined, sentence
-from optlaws.tolerances import AGREEMENT, CLOSURE, SAME_TIME
+from optlaws.tolerances import AGREEMENT, CLOSURE, SAME_TIME, VALUE_ROUNDING
 
 if TYPE_CHECKING:
     from optlaws.mechanisms.drives.effort import Margin
@@ -284,7 +284,9 @@ def _most(plan: Plan, given: Cycle) -> list[_Taken]:
     """For each limit of segments, by name, the quantity that uses most of it."""
     most: dict[str, _Taken] = {}
     for each in _of_segments(plan.peaks, plan.specification, _limits(given), given.programme.stretches):
-        if each.taken.name not in most or each.taken.share > most[each.taken.name].taken.share:
+        # of segments that take the same, but for rounding, the first
+        known = most.get(each.taken.name)
+        if known is None or each.taken.share > known.taken.share + VALUE_ROUNDING * abs(known.taken.share):
             most[each.taken.name] = each
     return list(most.values())
 
