@@ -95,7 +95,7 @@ def watched(points: int, degree: int, workers: int) -> Stopwatch:
 PARTS = {
     "programs": ("optlaws.synthesis.method.exchange.answer_on_points",),
     "Newton": ("optlaws.synthesis.method.contacts.newton",),
-    "proof": ("optlaws.synthesis.search.certify", "optlaws.synthesis.search.lower_bound"),
+    "proof": ("optlaws.synthesis.search.certify",),
     "synthesis": ("optlaws.studies.chunk.synthesize", "optlaws.studies.chunk.solved"),
     "constants": ("optlaws.studies.chunk._of_solution", "optlaws.studies.chunk._of_solutions"),
 }
