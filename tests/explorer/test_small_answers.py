@@ -116,7 +116,7 @@ def test_forms_have_the_entries_of_what_they_make() -> None:
     ]  # fmt: skip
     assert form["segments"]["dwell"][0]["name"] == "duration"
     assert cam_view.form()["axes"]["inclined flat"] == "length"
-    assert cam_view.form()["drive"]["length"][0]["placeholder"] == "none, or 2.5 kg"
+    assert form["drive"]["length"][0]["placeholder"] == "none, or 2.5 kg"
     assert sorted(machine_view.kinds()["table"]) == ["axis", "fields", "mechanism"]
     assert machine_view.kinds()["rack"]["mechanism"] == {"radius": "20 mm", "mass": "12 kg"}
 
