@@ -20,9 +20,9 @@ _APPROXIMATION = 1e-3
 #: of a difference of jerk by the length of pieces: what the peak of acceleration at a kink halfway between two knots is
 #: less in the nearest spline of even pieces of degree 5; at a knot it is 0.085
 _KINK = 0.14
-#: of a difference of jerk by the cube of the length of pieces: what the nearest spline is off a kink at least, in the
-#: mean of squares; and deviations of a fit by which rows show so much
-_OFF_KINK, _SHOWN = 0.0018, 15.0
+#: of a difference of jerk by the cube of the length of pieces: what that spline is off such a kink, in the mean of
+#: squares beside it; and by how many deviations of a fit rows would show it, so that there were more pieces
+_OFF_KINK, _SHOWN = 0.0031, 6.0
 #: windows have so many rows, and each begins so many parts of its length behind the last one
 _LONGER, _OVERLAP = 1.35, 6
 #: places of each piece of degree 5 at which a band is looked at
@@ -115,7 +115,7 @@ def most_peak(fits: Sequence[CurveFit], nu: int, low: float, high: float) -> flo
         at = np.unique(np.concatenate([at, np.nextafter(inner, -inf)]))
         values = np.abs(fit.values(at, nu))
         peaks.append(float(values.max()))
-        parts = max(fit.pieces, len(fit.breaks) - 1)
+        parts = max(fit.pieces, len(fit.breaks) - 1, fit.degree - DEGREE)
         if nu == 2 and parts > SIMPLE:
             values += _smoothed_kink(fit, at, (fit.stop - fit.start) / parts)
         most = max(most, float((values + _ABOVE * fit.deviation(at, nu)).max()))
