@@ -322,7 +322,9 @@ def test_axes_are_exported_under_their_own_names(form: str) -> None:
     ("make", "says"),
     [
         (lambda: Axes({}), "axes: they are a table of segments by name"),
-        (lambda: Axes({"x": HEAD}), "either a speed such as"),
+        (lambda: Axes({"x": HEAD}),
+         r"axis x: segment 4 \(Return\): nothing bounds its time: give .*, or all axes either a speed such as"),
+        (lambda: Axes({"x": HEAD}, speed="30 rpm", period="2 s"), "either a speed such as"),
         (lambda: Axes({"x": HEAD}, period="1 s"), r"axis x: the durations sum to"),
         (lambda: Axes({"x": NO_SEGMENTS}, period="1 s"), "axis x: its segments are a list such as"),
         (lambda: Axes({"x": {"segment": HEAD}}, period="1 s"), "axis x: unknown key 'segment'; did you mean"),

@@ -72,7 +72,8 @@ class _Timed:
                 if period is None and not plan[i].binds:
                     raise InputError(
                         f"segment {i + 1} ({segments[i].label}): nothing bounds its time: give it a duration, or "
-                        'limits, such as limits = { acceleration = "20 m/s^2" }'
+                        'limits, such as limits = { acceleration = "20 m/s^2" }, or all axes either a speed such as '
+                        '"200 rpm" or a period such as "0.3 s"'
                     )
                 least[i] = max(least[i], plan[i].least, key=lambda extent: extent.at(trial))
         dwells = [isinstance(each, Dwell) for each in segments]
