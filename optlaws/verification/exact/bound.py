@@ -76,9 +76,9 @@ def prove(certificate: Certificate, along: Along | None = None) -> Proof:
     for times in _MORE_BITS:
         with ctx.workprec(_bits(certificate) * times):
             rows = ExactRows(certificate)
-            best = _proof(rows, certificate, along)
-        # balls that are too wide show nothing, or are charged
-        if best.value is not None and arb(best.charge) <= ball(_DEAR) * ball(abs(best.value)):
+            best, width = _proof(rows, certificate, along)
+        # balls that are too wide show nothing, or are charged, or lie far below
+        if best.value is not None and arb(best.charge) + width <= ball(_DEAR) * ball(abs(best.value)):
             break
     if certificate.program == VIOLATION or along is not None:
         return best
@@ -93,8 +93,8 @@ def _bits(certificate: Certificate) -> int:
     return 96 + 4 * (2 * certificate.problem.order + int(getattr(certificate.problem.basis, "degree", 0)))
 
 
-def _proof(rows: ExactRows, certificate: Certificate, along: Along | None) -> Proof:
-    """The proof at the precision at work, at which a linear system may be too wide to be solved."""
+def _proof(rows: ExactRows, certificate: Certificate, along: Along | None) -> tuple[Proof, arb]:
+    """The proof at the precision at work, at which a linear system may be too wide to be solved; its sum's width."""
     leaf = _Leaf(rows, certificate)
     total = leaf.sum()
     claim = along.claim if along is not None else rounded_up(upper(total[-1])) if total[-1].is_finite() else inf
@@ -106,14 +106,14 @@ def _proof(rows: ExactRows, certificate: Certificate, along: Along | None) -> Pr
         if repaired is not None and (beyond is None or bool(repaired[1] > value - beyond)):
             (weights, value), beyond, claim = repaired, arb(0), inf
     if beyond is None or not value.is_finite():
-        return Proof(None, 0.0, leaf.negative, leaf.unknown)
+        return Proof(None, 0.0, leaf.negative, leaf.unknown), arb(0)
     # a law either contradicts the claim, and then the charge covers it, or it does not
     proven = lower(value - beyond)
     if along is None and isfinite(claim):
         proven = min(proven, Fraction(claim))
     slope = sum((m * rate for m, rate in zip(weights, leaf.rates(along), strict=False)), arb(0))
     bounds = (lower(slope), upper(slope))
-    return Proof(proven, rounded_up(upper(beyond)) + 0.0, leaf.negative, leaf.unknown, bounds)
+    return Proof(proven, rounded_up(upper(beyond)) + 0.0, leaf.negative, leaf.unknown, bounds), value.rad()
 
 
 class _Leaf:
