@@ -138,7 +138,7 @@ class Tangents:
             # the tangent in its own direction, whose weight alone is often enough
             rows = np.vstack([self.at(target / max(float(np.linalg.norm(target)), TINY)), rows])
             for _ in range(_MOST_TANGENTS):
-                weights = _nonnegative(rows[:, :-1], target)
+                weights = nonnegative_weights(rows[:, :-1], target)
                 missed = target - weights @ rows[:, :-1]
                 off = float(np.linalg.norm(missed))
                 further = self._beyond(missed / off) if off > least else rows[:0]
@@ -161,7 +161,7 @@ class Tangents:
         return np.empty((0, len(direction) + 1))
 
 
-def _nonnegative(rows: Array, target: Array) -> Array:
+def nonnegative_weights(rows: Array, target: Array) -> Array:
     """Weights, none below 0, with which rows come nearest to a target."""
     from scipy.optimize import nnls
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from fractions import Fraction
 
 import numpy as np
 
@@ -21,6 +20,7 @@ from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.families.names import RowName, VariableName, velocity_at_peak
+from optlaws.synthesis.functionals.sizes import nonnegative_weights
 from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.newton import newton
@@ -36,6 +36,8 @@ from optlaws.tolerances import EMPTY_ROW, OPTIMALITY_GAP
 
 _CUTS_ENOUGH = 2e-9  # of an objective: what cuts may leave
 _LEFT_SHARES = (1e-12, 1e-11, 1e-10, 1e-9)  # of a constant's weight: what a proof leaves of it to pay for rounding
+_LIGHT_SHARES = (1e-13, 1e-12, 1e-11, 1e-10)  # of all multipliers: what each contact has that is there for rounding
+_FOUR_WAYS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
 _DIRECTIONS_RANK = 1e-10  # of the greatest singular value of pulls: less is rounding
 _APEX = 1e-11  # of the sum of magnitudes: a norm that is less is 0 but for rounding
 _PROOF_WEIGHTLESS = 1e-14  # of the greatest multiplier of a proof: what is less is left out
@@ -93,19 +95,27 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
             return plain
     proof = certificate(model, optimum, OBJECTIVE)
     enough = objective - _PROOF_ENOUGH * max(abs(objective), _PROOF_ENOUGH)
-    if proof.estimate >= enough or proof.bound >= enough:
+    if (proof.estimate >= enough and not _of_one_side(model)) or proof.bound >= enough:
         return proof
     bent = any(isinstance(family, FormulaFamily | NormFamily | ConeFamily) for family in model.program.families)
     if bent or objective - proof.bound > OPTIMALITY_GAP * abs(objective):
         proof = _settled(model, optimum, proof)
     # constants that are nowhere below 0 bound their sum without a contact
-    proof = max(proof, Certificate.of_leaf(model.problem), key=lambda known: known.bound)
-    if proof.bound == -np.inf:
-        proof = _with_falling_peaks(model, proof)
+    balanced, proof = proof, max(proof, Certificate.of_leaf(model.problem), key=lambda known: known.bound)
+    for repairable in spread(model, balanced) if objective - proof.bound > OPTIMALITY_GAP * abs(objective) else ():
+        proof = max(proof, repairable, key=lambda known: known.bound)
+        if proof.bound >= enough:
+            return proof
     if proof.bound == -np.inf:
         proof = max((proof, *_leaving(model, optimum)), key=lambda known: known.bound)
     several = _Tangents(model, optimum).certificate(objective) if _needs_tangents(model) else None
     return several if several is not None and several.bound > proof.bound else proof
+
+
+def _of_one_side(model: Model) -> bool:
+    """Whether what is minimised is a peak of one side, which bounds laws in doubles alone, if at all."""
+    sided = (each for each in model.program.families if isinstance(each, LinearFamily) and len(each.signs) == 1)
+    return any(float(each.slack @ model.program.objective) > 0.0 for each in sided)
 
 
 def _settled(model: Model, optimum: ActiveSet, proof: Certificate) -> Certificate:
@@ -181,25 +191,40 @@ def _touching(model: Model, contact: Contact, change: Array) -> Contact:
     return replace(contact, direction=tuple((np.array(contact.direction) + moved).tolist()))
 
 
-def _with_falling_peaks(model: Model, proof: Certificate) -> Certificate:
-    """The certificate whose multipliers hold what may fall for ever, a peak of one side, exactly: they are its weight.
+def spread(model: Model, proof: Certificate) -> Iterator[Certificate]:
+    """The certificate with light contacts everywhere, of one weight after another, so that rows determine the law.
 
-    The lightest is tried first, whose last bit is finest.
+    An optimum that is not the only law balances its contacts at their exact places alone, and no multipliers do at
+    rounded ones. With light contacts some do, whatever rounding leaves; what these add up to, the others balance.
     """
-    least, contacts = Sublevel.of(model).least_values(), list(proof.contacts)
-    rows = [row_of(model.program, contact)[0] for contact in contacts]
-    for name, weight in model.problem.objective.weights().items():
-        place = model.places.get(name)
-        if place is None or least.get(name) != -np.inf:
-            continue
-        holding = [i for i, contact in enumerate(contacts) if contact.multiplier > 0.0 and rows[i][place] < 0.0]
-        rest = Fraction(weight) - sum(Fraction(contacts[i].multiplier) for i in holding)
-        for i in sorted(holding, key=lambda i: contacts[i].multiplier):
-            exact = Fraction(contacts[i].multiplier) + rest
-            if exact > 0 and Fraction(float(exact)) == exact:
-                contacts[i] = replace(contacts[i], multiplier=float(exact))
-                break
-    return proof.with_leaf(contacts=contacts)
+    program, contacts = model.program, [contact for contact in proof.contacts if contact.multiplier > 0.0]
+    light = list(_light(model))
+    if not light or not contacts:
+        return
+    rows, heavy = (np.array([row_of(program, contact)[0] for contact in part]) for part in (light, contacts))
+    sizes, lengths = np.linalg.norm(heavy, axis=1), np.maximum(np.linalg.norm(rows, axis=1), EMPTY_ROW)
+    rows /= lengths[:, None]
+    fixed = np.vstack([heavy, program.equalities])
+    weights = nonnegative_weights(np.vstack([rows, fixed, -fixed]), -rows.sum(axis=0))
+    more, added, taken = np.split(weights, np.cumsum([len(rows), len(fixed)]))
+    (change, turn), multipliers = np.split(added - taken, [len(heavy)]), np.array([c.multiplier for c in contacts])
+    for share in _LIGHT_SHARES:
+        weight = share * float(multipliers @ sizes)
+        stated = program.multipliers_of_equations(proof.equations) + weight * turn
+        every = [*(multipliers + weight * change).tolist(), *(weight * (1.0 + more) / lengths).tolist()]
+        yield proof.with_leaf(
+            contacts=[replace(c, multiplier=m) for c, m in zip([*contacts, *light], every, strict=True)],
+            equations=program.stated_multipliers(stated).tolist(),
+        )
+
+
+def _light(model: Model) -> Iterator[Contact]:
+    """Contacts at the first points of affine rows, and of cones in four directions, which add up to nothing."""
+    for family, points in zip(model.program.families, first_points(model.program), strict=True):
+        if isinstance(family, LinearFamily | ConeFamily):
+            directions = _FOUR_WAYS if isinstance(family, ConeFamily) else ((),)
+            for k, sign in zip(family.k(points.u).tolist(), points.s.tolist(), strict=True):
+                yield from (Contact(family.name, sign, min(max(k, 0.0), 1.0), 1.0, way) for way in directions)
 
 
 def _leaving(model: Model, optimum: ActiveSet) -> Iterator[Certificate]:
