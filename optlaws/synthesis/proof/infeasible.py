@@ -24,7 +24,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model_of
 from optlaws.synthesis.proof.certificate import OBJECTIVE, VIOLATION, Certificate
-from optlaws.synthesis.proof.make import certificate, violation_certificate
+from optlaws.synthesis.proof.make import certificate, spread, violation_certificate
 from optlaws.synthesis.proof.no_law import beyond_limit, convex_part, least_of
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.bases import Basis, PolynomialBasis
@@ -70,7 +70,8 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
     trial = solve(elastic.program)
     proof = None if trial.optimum is None else violation_certificate(elastic, trial.optimum)
     if proof is None or not proof.proves_infeasible:
-        proof = _at_vertices(elastic) or proof
+        repairable = () if proof is None else (each for each in spread(elastic, proof) if each.proves_infeasible)
+        proof = _at_vertices(elastic) or next(iter(repairable), proof)
     if proof is not None and proof.proves_infeasible:
         return InfeasibleProblem(
             beyond or _why(problem, proof, elastic), problem=problem, proof=proof, tried=_contradiction(proof)
