@@ -518,6 +518,14 @@ def test_a_click_on_the_law_itself_changes_nothing(page: Page, served: Server) -
     assert page.get_by_role("button", name="Undo").is_disabled()
 
 
+def test_the_hint_of_a_first_visit_is_where_the_blue_point_is(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    assert page.locator("#first").is_visible()
+    page.get_by_role("tab", name="Timing").click()
+    settle(page)
+    assert page.locator("#first").is_hidden()
+
+
 def test_kinds_and_times_keep_what_was_given(page: Page, served: Server) -> None:
     go(page, f"http://{served.host}/")
     page.get_by_role("tab", name="Motion").click()

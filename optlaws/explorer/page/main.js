@@ -153,7 +153,7 @@ async function open() {
       view.show(now);
       exporting.show(now);
     } else if (view === undefined) during(load(name)).catch((error) => notice(error.message));
-    document.getElementById("first").hidden = study.canUndo || location.hash.length > 1;
+    document.getElementById("first").hidden = study.canUndo || location.hash.length > 1 || name !== "laws";
     tools.show(Boolean(view?.moves));
     details.show(now);
   }
