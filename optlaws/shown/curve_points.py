@@ -9,7 +9,7 @@ import numpy as np
 from optlaws.numbers import Array
 
 _DRAWN_DEVIATION = 2e-3  # of a curve's range: a line between two of its places is the curve to the eye
-_SAME = 1e-12  # of the range: two places that differ by less are one, moved by rounding
+_SAME = 1e-7  # of the range: nearer places are one, for so far rounding moves an extreme beside an end at rest
 
 _ROUNDS = 9
 _MOST = 4000
