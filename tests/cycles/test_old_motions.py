@@ -198,6 +198,16 @@ def test_a_move_about_a_constant_velocity_ends_where_this_goes_on() -> None:
     assert table.peaks[1].high < 1.1 * peak
 
 
+@pytest.mark.parametrize("noise", [0.0, 5e-3])
+@pytest.mark.parametrize("name", ["cycloidal", "simple harmonic", "4-5-6-7 polynomial", "modified trapezoid"])
+def test_standard_laws_between_dwells_have_no_corners(name: str, noise: float) -> None:
+    x, law = np.linspace(0.0, 360.0, 721), catalogue[name].law
+    lift = 30.0 * (law(np.clip((x - 30.0) / 100.0, 0.0, 1.0)) - law(np.clip((x - 180.0) / 90.0, 0.0, 1.0)))
+    table = split_table(x, lift + np.random.default_rng(7).normal(0.0, noise, x.size))
+    assert [part.law for part in table.moves] == [name, name]
+    assert table.corners == ()
+
+
 def test_corners_are_listed_with_their_places() -> None:
     x = np.arange(0.0, 360.1, 0.5)
     law = catalogue["modified sine"].law

@@ -137,17 +137,18 @@ def position(part: Stretch, places: Array) -> Array:
 
 def corners_of(stretches: Sequence[Stretch]) -> tuple[float, ...]:
     """The places at which the velocity jumps in a turn of stretches, also from its end to its beginning."""
-    places, before, after = list[float](), list[float](), list[float]()
+    places, before, after, greatest = list[float](), list[float](), list[float](), 0.0
     for part in stretches:
         law = None if part.law is None else law_of_move(part)
         k = np.array([0.0, 1.0] if law is None else law.breaks)
         slope = part.stroke / (part.stop - part.start)
+        greatest = max(greatest, 0.0 if law is None else abs(slope) * law.peak(1).value)
         sides = (np.nextafter(k[1:], 0.0), np.nextafter(k[:-1], 1.0))
         ends, begins = (0.0 * at if law is None else slope * np.asarray(law(at, 1)) for at in sides)
         places += (part.start + (part.stop - part.start) * k[:-1]).tolist()
         before, after = before + ends.tolist(), after + begins.tolist()
     jumps = np.abs(np.array(after) - np.roll(before, 1))
-    return tuple(np.array(places)[jumps > _JUMP * np.abs([before, after]).max()].tolist())
+    return tuple(np.array(places)[jumps > _JUMP * greatest].tolist())
 
 
 def law_of_move(part: Stretch) -> MotionLaw:
