@@ -40,7 +40,7 @@ class Worker:
     def __init__(self) -> None:
         context: Any = multiprocessing.get_context(_KIND)
         if _KIND == "forkserver":
-            context.set_forkserver_preload(["optlaws.explorer.answering", "casadi"])
+            context.set_forkserver_preload(["optlaws.explorer.answering", "optlaws.verification.exact.bound", "casadi"])
         self._connection, its_own = context.Pipe()
         self._process = context.Process(target=answer_from, args=(its_own,), daemon=True)
         self._process.start()
