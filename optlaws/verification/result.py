@@ -43,8 +43,8 @@ class Claim:
     recomputed: bool = False
 
     def __str__(self) -> str:
-        word = "proven" if self.proven else "recomputed" if self.recomputed else "not checked"
-        word = "not proven" if self.checked and not self.proven else word
+        unproven = "not proven" if self.checked else "recomputed" if self.recomputed else "not checked"
+        word = "proven" if self.proven else unproven
         name = self.name if len(self.name) <= _LONGEST_NAME else f"{self.name[: _LONGEST_NAME - 4]} ..."
         return f"{word:<12}{name}: {self.detail}"
 

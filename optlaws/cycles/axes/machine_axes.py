@@ -437,10 +437,11 @@ class Axes(AxesAnswers, Declared, title="stored axes"):
         """Its cycles, or plans, which have what is looked at of a cycle."""
         clock: dict[str, Any] = {"speed": self.speed, "period": self.period}
         cycles = dict[str, Any]()
-        if self.speed is None and self.period is None and all(isinstance(a, Cycle | Plan) for a in self.axes.values()):
-            clock = {}
-        if not any(clock.values()) and clock and all(isinstance(a, Mapping | list | tuple) for a in self.axes.values()):
-            return self._begun
+        if self.speed is None and self.period is None:
+            if all(isinstance(given, Cycle | Plan) for given in self.axes.values()):
+                clock = {}
+            elif all(isinstance(given, Mapping | list | tuple) for given in self.axes.values()):
+                return self._begun
         duration = period_of(**clock) if clock else 0.0
         for name, given in self.axes.items():
             with located(f"axis {name}"):

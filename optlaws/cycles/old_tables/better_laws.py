@@ -207,7 +207,7 @@ def _enough(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) -
 def _least(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) -> Solution | None:
     """The law of least acceleration within a share of the stroke of an old one; None where none has less.
 
-    It is found by cutting planes: asked at a few places, which those join where it is beyond the tolerance. They have
+    It is found by cutting planes: windows at few places, which others join where a law is too far. They have
     the tolerance itself, so that the bound of the solution is that of all laws within it; less by twice what rounding
     leaves a law beyond it at last. Its jerk is bounded by that of the old law, or by what takes its jumps at the ends
     over a part of the move.

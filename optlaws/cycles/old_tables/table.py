@@ -22,6 +22,7 @@ from optlaws.cycles.old_tables.stretches import Stretch, corners_of, law_of_move
 from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, Rise
 from optlaws.errors import InputError, located
 from optlaws.files import reading
+from optlaws.kept import kept_property
 from optlaws.laws.catalogue.tables.columns import LARGEST_TABLE
 from optlaws.laws.catalogue.tables.controller_files import FEWEST_POINTS
 from optlaws.laws.catalogue.tables.curve_pieces import APART, CurvePiece
@@ -261,7 +262,7 @@ class OldTable:
         worst = int(np.argmax(apart))
         return float(apart[worst]), float(self.places[worst])
 
-    @property
+    @kept_property
     def corners(self) -> tuple[float, ...]:
         """The places at which the velocity of its laws jumps, that of its end too where this does not meet its start.
 

@@ -226,21 +226,19 @@ def _fill(laws: SolvedBatch, path: Path, segment: StructureSegment, t: Array, pl
         if stride > 1 and len(places) < _PER_WAVE * stride:
             continue
         some = places[::stride][~laws.solved[places[::stride]]]
-        for i in range(0, len(some), _chunk(structure)):
-            these = some[i : i + _chunk(structure)]
-            _enter(laws, path, structure, these, (t[these], segment.interpolated(t[these])))
-        known = some[laws.solved[some]]
-        contacts = (laws.u[known, : structure.count], laws.multiplier[known, : structure.count])
-        segment.joined(t[known], np.concatenate([laws.x[known], *contacts, laws.equations[known]], axis=1))
+        _enter(laws, path, segment, some, t[some])
+        known, contacts = some[laws.solved[some]], slice(structure.count)
+        states = States(laws.x[known], laws.u[known, contacts], laws.multiplier[known, contacts], laws.equations[known])
+        segment.joined(t[known], states.packed)
 
 
-def _enter(target: SolvedBatch, path: Path, structure: Structure, places: Places, near: tuple[Array, States]) -> None:
-    """Add laws at some t, with nearby states, as far as they are proven."""
-    (t, guess), size = near, _chunk(structure)
+def _enter(target: SolvedBatch, path: Path, segment: StructureSegment, places: Places, t: Array) -> None:
+    """Add laws of a segment at some t, interpolated between its states, as far as they are proven."""
+    size = _chunk(segment.structure)
     for i in range(0, len(t), size):
         some = slice(i, i + size)
-        laws = _LawsOfStructure(target, path, structure, places[some], path.numbers(t[some]))
-        laws.solve(guess.taken(some))
+        laws = _LawsOfStructure(target, path, segment.structure, places[some], path.numbers(t[some]))
+        laws.solve(segment.interpolated(t[some]))
 
 
 def _chunk(structure: Structure) -> int:
@@ -393,6 +391,5 @@ def _laws_of_stored_structures(path: Path, t: Array, known: _StoredAlong) -> Sol
         for i in np.unique(known.nearest[left] + beside).tolist():
             if 0 <= i < len(structures):
                 places = np.flatnonzero(left & (known.nearest + beside == i))
-                segment = known.segment(i, t[places])
-                _enter(laws, path, segment.structure, places, (t[places], segment.interpolated(t[places])))
+                _enter(laws, path, known.segment(i, t[places]), places, t[places])
     return laws

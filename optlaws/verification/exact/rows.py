@@ -252,13 +252,13 @@ class ExactRows:
             columns = partial(norm_columns, self.space, parts)
             self._add(name, lambda contact, _: limit.row(value / whole for value in columns(contact.direction)))
             return
-        root = isinstance(constant, FormulaRms)
-        if root and switches(motion.formula, ORDERS):
+        root, kinked = isinstance(constant, FormulaRms), bool(switches(motion.formula, ORDERS))
+        if root and kinked:
             raise InputError(f"there are no exact rows for {name}: it is the root mean square of a formula with kinks")
         unit = ball(constant.length).sqrt() if isinstance(constant, FormulaRms) else arb(1)
 
         def make(contact: Contact, _: Fraction) -> BallRow:
-            if switches(motion.formula, ORDERS):
+            if kinked:
                 return limit.row(straight_integral(self.space, motion, contact.direction))
             squares = squared(motion) if root else motion
             columns = tangent_integral(self.space, squares, contact.direction, root=root)

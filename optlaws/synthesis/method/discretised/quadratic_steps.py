@@ -85,7 +85,7 @@ class _Descent:
         self.order = np.concatenate([begin + each for begin, each in zip(self.ends[:-1], places, strict=True)])
         self.raised = list(self._only_raised())
         self.price = _LEAST_PRICE
-        #: tangents of convex integrals where they were asked: rows, what is beside them, and whose row each is like
+        #: tangents of convex integrals at earlier laws: rows, what is beside them, and whose row each is like
         self.tangents: list[tuple[Array, float, int]] = []
 
     def _only_raised(self) -> Iterator[tuple[int, float, NDArray[np.intp]]]:
