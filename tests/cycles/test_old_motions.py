@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.interpolate import BPoly
 
 from optlaws import InputError, catalogue, read_cycle_table, split_table
 from tests.internals.cycles import OldTableReport
@@ -220,3 +221,19 @@ def test_corners_are_listed_with_their_places() -> None:
     assert rests.corners == ()
     arches = split_table(x, np.round(np.abs(np.sin(np.radians(x))), 6))
     assert arches.corners == pytest.approx([0.0, 180.0], abs=1e-6)
+
+
+@pytest.mark.parametrize("begin", [80.0, 79.8])
+def test_a_rest_that_meets_a_ramp_of_constant_velocity_at_a_corner_stays(begin: float) -> None:
+    x, slope = np.arange(0.0, 360.1, 0.5), 0.02
+    lift = BPoly.from_derivatives([100.0, 170.0], [[slope * (100.0 - begin), slope, 0.0], [9.0, 0.0, 0.0]])
+    y = np.where(x < 100.0, slope * np.maximum(x - begin, 0.0), lift(np.clip(x, 100.0, 170.0)))
+    y -= 9.0 * QUINTIC(np.clip((x - 200.0) / 100.0, 0.0, 1.0))
+    table = split_table(x, np.round(y, 4), digit=1e-4)
+    assert [(part.kind, part.line is not None) for part in table.stretches] == [
+        ("dwell", True), ("rise", True), ("rise", False), ("dwell", True), ("return", False), ("dwell", True)
+    ]  # fmt: skip
+    assert table.corners == pytest.approx([begin], abs=0.05)
+    assert [part.stop for part in table.stretches][1:3] == pytest.approx([100.0, 170.0], abs=0.5)
+    assert [peak.is_known for peak in table.peaks] == [True, False, False]
+    assert table.off[0] <= table.room * (1.0 + 1e-9)

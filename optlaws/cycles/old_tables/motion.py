@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 from typing import TypeAlias
 
@@ -84,6 +85,8 @@ class FittedMove:
         The standard law that the rows do not exclude, "" where they exclude all; the one that is nearest.
     peaks
         The intervals of velocity, acceleration and jerk.
+    slopes
+        The velocities of the lines beside it. Where these meet is a corner, a move without length.
     """
 
     start: float
@@ -93,25 +96,27 @@ class FittedMove:
     fits: tuple[CurveFit, ...]
     name: str
     nearest: str
-    peaks: tuple[PeakInterval, ...]
+    peaks: tuple[PeakInterval, ...] = ()
+    slopes: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def is_corner(self) -> bool:
+        """Whether it is the place alone at which two lines meet."""
+        return self.start == self.stop
 
     def position_before(self, place: float) -> float:
         """The position at a place before it, on the line from which it starts."""
-        return self._on(0, place, self.low)
+        return self.low + self.slopes[0] * (place - self.start)
 
     def position_behind(self, place: float) -> float:
         """The position at a place behind it, on the line in which it ends."""
-        return self._on(1, place, self.high)
+        return self.high + self.slopes[1] * (place - self.stop)
 
     def moved(self, along: float, up: float) -> FittedMove:
         """The move, moved along the master and up."""
         fits = tuple(fit.moved(along, up) for fit in self.fits)
         start, stop = self.start + along, self.stop + along
         return replace(self, fits=fits, start=start, stop=stop, low=self.low + up, high=self.high + up)
-
-    def _on(self, side: int, place: float, level: float) -> float:
-        end = self.fits[0].ends[side] if self.fits else End()
-        return level + end.slope * (place - (self.start, self.stop)[side])
 
 
 @dataclass(frozen=True, eq=False)
@@ -396,16 +401,31 @@ class _Region:
 
     @property
     def moves_at_all(self) -> bool:
-        """Whether rows are between its ends, or these at two levels."""
+        """Whether rows are between its ends, or these at two levels or on lines that meet at a corner."""
         levels = {end.line[1] for end in self.ends if end.line is not None}
-        return self.rows > 1 or (self.rows == 1 and len(levels) == 2)
+        return self.rows > 1 or self._corner is not None or (self.rows == 1 and len(levels) == 2)
+
+    @cached_property
+    def _corner(self) -> tuple[float, float, float] | None:
+        """Place and position of the corner at which the lines beside it meet, with the sum of squares; None if none."""
+        if self.rows > _FEWEST_MOVING or self.before is None or self.after is None:
+            return None
+        apart = self.before.slope - self.after.slope
+        if apart == 0.0:
+            return None
+        before, after = self.ends
+        at = self.x[0] + float(after.value(self.x[0]) - before.value(self.x[0])) / apart
+        off = (np.where(self.x < at, before.value(self.x), after.value(self.x)) - self.y) / self.noise
+        squares = float(off @ off)
+        if not self.x[0] < at < self.x[-1] or not likely(squares, len(off)):
+            return None
+        return float(at), float(before.value(np.array(at))), squares
 
     def moves(self, total: list[float]) -> Iterator[FittedMove]:
         """The moves of the region."""
         x, y = self.x, self.y
         if self.rows <= _FEWEST_MOVING:
-            total[1] += len(x) - self.rows
-            yield from self._of_fits((), self.about, [""])
+            yield from self._few_rows(total)
             return
         turns = _turning_points(y, 2.0 * NOISE_ROOM * float(self.noise.max()) + 2.0 * self.digit)
         places = [self.about[0], *(float(x[i]) for i in turns if self.about[0] < x[i] < self.about[1]), self.about[1]]
@@ -441,6 +461,16 @@ class _Region:
         total[0] += chain.squares if chain else fits[0].squares if fits else 0.0
         total[1] += len(x) - (chain.free if chain else fits[0].free if fits else 0)
         yield from self._of_chain(chains, fits) if chain else self._of_fits(fits, places, near)
+
+    def _few_rows(self, total: list[float]) -> Iterator[FittedMove]:
+        """The corner of a region of few rows, or what goes through these."""
+        if self._corner is None:
+            total[1] += len(self.x) - self.rows
+            yield from self._of_fits((), self.about, [""])
+            return
+        place, height, squares = self._corner
+        total[0], total[1] = total[0] + squares, total[1] + len(self.x)
+        yield FittedMove(place, place, height, height, (), "", "", slopes=(self.ends[0].slope, self.ends[1].slope))
 
     def _ends_at_seam(self, fits: Sequence[CurveFit]) -> tuple[End, End] | None:
         """Its ends, of which one that moves about the seam is exactly there; None where there is none."""
@@ -585,7 +615,8 @@ class _Region:
                 most_peak(fits, nu, low, high) + self._missing(fits[0], nu, low, high) for nu in (1, 2, 3)
             ]
             peaks = [self._interval(nu, low, high, bounds[nu - 1], variance) for nu in (1, 2, 3)]
-            yield FittedMove(low, high, first, last, tuple(fits), "", nearest, tuple(peaks))
+            slopes = fits[0].ends[0].slope, fits[0].ends[1].slope
+            yield FittedMove(low, high, first, last, tuple(fits), "", nearest, tuple(peaks), slopes)
 
     def _missing(self, fit: CurveFit, nu: int, low: float, high: float) -> float:
         """What the rows show of a derivative that a fit has not: at joints that it smooths."""

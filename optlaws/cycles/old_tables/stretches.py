@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from math import inf
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -89,11 +90,15 @@ def stretches_of(motion: FittedMotion) -> Iterator[Stretch]:
     """The dwells and moves of a fitted motion, from its first place to its last one."""
     x, y = motion.samples.places, motion.samples.heights
     least, least_rise = SHORTEST * float(np.ptp(x)), VALUE_ROUNDING * float(np.ptp(y))
-    at, level = float(x[0]), motion.moves[0].position_before(float(x[0]))
+    at, level, corner = float(x[0]), motion.moves[0].position_before(float(x[0])), False
     for move in motion.moves:
         start = move.start if move.start - at > least else at
         if start > at:
-            yield _between(at, start, level, move.low, least_rise)
+            yield _between(at, start, level, move.low, least_rise, corner=corner or move.is_corner)
+        corner = move.is_corner
+        if corner:
+            at, level = start, move.low
+            continue
         stop = move.stop if float(x[-1]) - move.stop > least else float(x[-1])
         law = move.name or _law_of(move)
         part = Stretch(
@@ -106,15 +111,18 @@ def stretches_of(motion: FittedMotion) -> Iterator[Stretch]:
         yield replace(part, distance=float(apart.max(initial=0.0)))
         at, level = stop, move.high
     if float(x[-1]) > at:
-        yield _between(at, float(x[-1]), level, motion.moves[-1].position_behind(float(x[-1])), least_rise)
+        yield _between(
+            at, float(x[-1]), level, motion.moves[-1].position_behind(float(x[-1])), least_rise, corner=corner
+        )
 
 
-def _between(start: float, stop: float, low: float, high: float, least: float) -> Stretch:
-    """A dwell, or what runs at constant velocity and rises or falls by more than the least."""
+def _between(start: float, stop: float, low: float, high: float, least: float, *, corner: bool) -> Stretch:
+    """A dwell, or what runs at constant velocity and rises or falls by more than the least, maybe beside a corner."""
     if abs(high - low) <= least:
         return Stretch("dwell", start, stop, low, high)
     slope = abs((high - low) / (stop - start))
-    peaks = PeakInterval(slope, slope), PeakInterval(0.0, 0.0), PeakInterval(0.0, 0.0)
+    most = inf if corner else 0.0
+    peaks = PeakInterval(slope, slope), PeakInterval(0.0, most), PeakInterval(0.0, most)
     name = "constant velocity"
     return Stretch("rise" if high > low else "return", start, stop, low, high, name, name, peaks=peaks)
 
