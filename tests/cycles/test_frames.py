@@ -123,3 +123,15 @@ def test_nothing_is_written_of_a_damaged_table(
         assert "line" in (error := capsys.readouterr().err)
         assert " 7" in error
     assert [file.name for file in tmp_path.iterdir()] == ["cam.csv"]
+
+
+def test_positions_go_on_where_their_encoder_begins_again() -> None:
+    x, law = np.arange(0.0, 360.0, 0.5), catalogue["cycloidal"].law
+    swing = 25.0 * (law(np.clip((x - 40.0) / 80.0, 0, 1)) - law(np.clip((x - 180.0) / 90.0, 0, 1)))
+    rocking, plain = (split_table(x, np.round(y, 4), unit="deg") for y in ((350.0 + swing) % 360.0, 350.0 + swing))
+    assert str(rocking) == str(plain)
+    assert [part.law for part in rocking.moves] == ["cycloidal"] * 2
+    table = split_table(x, np.round((100.0 + 3.0 * x + swing) % 360.0, 4), unit="deg")
+    assert table.seam == pytest.approx(1080.0, abs=2.0)
+    indexing = 3.0 * law(np.clip((x - 40.0) / 200.0, 0, 1))
+    assert split_table(x[::60], indexing[::60], unit="turn").heights[-1] == 3.0

@@ -16,6 +16,7 @@ _TURNS = {"deg": _TURN, "rad": 2.0 * np.pi, "turn": 1.0, "rev": 1.0}
 _NEAR = 1e-3  # of the positions: by how much more the last one may be off the first one than steps beside it are
 _MOST_LOBES = 100
 _LONG_STEP = 5  # times the median step: a longer one between equal positions is a rest
+_STEP_OF_TURN = 0.25  # a position that goes on over the end of its turn makes no longer step
 _WHOLE = 1e-6  # of a turn: by how much the last row may be off its end, as digits leave it
 
 
@@ -65,6 +66,22 @@ def in_order(
             "leave one out"
         )
     return np.delete(places, twice + 1), np.delete(heights, twice + 1)
+
+
+def unwound(heights: Array, unit: str) -> Array:
+    """Positions that go on where an encoder of one turn begins again; others, and those of lengths, as they are.
+
+    Examples
+    --------
+    >>> unwound(np.array([340.0, 350.0, 359.5, 10.0, 12.0]), "deg").tolist()
+    [340.0, 350.0, 359.5, 370.0, 372.0]
+    """
+    turn = _TURNS.get(unit)
+    jumps = np.abs(np.diff(heights)) > 0.5 * (turn or np.inf)
+    if turn is None or not jumps.any() or np.any(jumps[1:] & jumps[:-1]):
+        return heights
+    going_on = np.unwrap(heights, period=turn)
+    return going_on if np.abs(np.diff(going_on)).max() <= _STEP_OF_TURN * turn else heights
 
 
 def closed(

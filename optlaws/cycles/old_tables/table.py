@@ -12,7 +12,17 @@ import numpy as np
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.old_tables.better_laws import MoveGain, bettered, gain
-from optlaws.cycles.old_tables.frame import begun, closed, in_order, in_unit, of_lobe, period_of, whole_turn, with_rests
+from optlaws.cycles.old_tables.frame import (
+    begun,
+    closed,
+    in_order,
+    in_unit,
+    of_lobe,
+    period_of,
+    unwound,
+    whole_turn,
+    with_rests,
+)
 from optlaws.cycles.old_tables.motion import NOISE_ROOM, motion_of
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.reading import points_in
@@ -585,7 +595,7 @@ def split_table(
     whole = turn is not None or either(f"1 {master}", ("angle", "time", "length"), "master")[0] == "length"
     of_one = of_lobe(lobes, turn, advance, master)
     ordered = in_order(places, heights, whole_turn(turn, master))
-    places, heights = closed(*ordered, *of_one, angle=master == "deg" and lobes == 1)
+    places, heights = closed(ordered[0], unwound(ordered[1], unit), *of_one, angle=master == "deg" and lobes == 1)
     places, heights = begun(places, heights, begin, of_one[1])
     stroke = float(np.ptp(heights))
     if stroke == 0.0:
