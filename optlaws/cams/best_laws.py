@@ -450,7 +450,8 @@ _PLANE_SLACK = 1e-9  # of a bound: by so much a formula lies within its planes
 
 Pair = tuple[float, float]
 
-_PARTS, _MANY = 24, 6
+_PARTS, _MANY = 40, 6
+_NARROW = 1.75  # of what b can change by in a part: a range of b that is narrower is not computed for its own sake
 
 
 @dataclass(frozen=True)
@@ -498,7 +499,7 @@ class RollerCurvature:
 
     def broken(self) -> bool:
         """Whether the piece's law breaks it somewhere on a grid."""
-        k = np.linspace(0.0, 1.0, 50 * _PARTS + 1)
+        k = np.linspace(0.0, 1.0, 25 * _PARTS + 1)
         a, b, c = (np.asarray(quantity(k)) for quantity in (self.piece.law.a, self.piece.law.b, self.piece.law.c))
         needed = np.asarray(evaluate(self._formula, {"a": a, "b": b}, NUMPY))
         return bool((needed > self.factor * c + _PLANE_SLACK).any())
@@ -581,8 +582,8 @@ def curvature_of(piece: Piece, contact: FollowerContact, least: float, period: f
 def bound_under(curvature: RollerCurvature, problem: Problem, most: float) -> float:
     """The lower bound of a convex problem's objective under a limit of curvature, where a law has the objective `most`.
 
-    Laws that are better run in a tube: their b is between values at 25 times, each the optimum of a convex problem,
-    and in between no further from these than their greatest acceleration takes it. There planes below G are limits
+    Laws that are better run in a tube: their b is between values at some times, each the optimum of a convex problem,
+    and elsewhere no further from these than their greatest acceleration takes it. There planes below G are limits
     that are convex. Where nothing bounds the acceleration, the bound is that of the problem itself.
     """
     least = synthesize(problem).lower_bound
@@ -617,9 +618,9 @@ def _most_acceleration(problem: Problem, most: float) -> float | None:
 def _tube(problem: Problem, greatest: float, ends: Pair) -> tuple[list[float], list[Pair], list[Pair]]:
     """Ends of parts of the time, and the ranges of a and b in all laws of a problem in each part."""
     k = np.linspace(0.0, 1.0, _PARTS + 1).tolist()
-    b = [(ends[0],) * 2, *(_range_at(problem, "b", place) for place in k[1:-1]), (ends[1],) * 2]
     width = 1.0 / _PARTS
     change = greatest * width
+    b = _ranges_at(problem, k, ends, change)
     velocities = [
         (-_highest(-before[0], -other[0], change), _highest(before[1], other[1], change))
         for before, other in pairwise(b)
@@ -646,6 +647,20 @@ def _highest(first: float, last: float, change: float) -> float:
     return 0.5 * (first + last + change)
 
 
-def _range_at(problem: Problem, name: str, k: float) -> Pair:
-    low = synthesize(replace(problem, minimise=value(name, at=k))).lower_bound
-    return low, -synthesize(replace(problem, minimise=value(f"-{name}", at=k))).lower_bound
+def _ranges_at(problem: Problem, k: Sequence[float], ends: Pair, change: float) -> list[Pair]:
+    """The ranges of b at places between which it changes by so much at most: computed where they are widest."""
+    known = {0: (ends[0],) * 2, _PARTS: (ends[1],) * 2}
+    while True:
+        ranges = [
+            (
+                max(low - change * abs(i - place) for place, (low, _) in known.items()),
+                min(high + change * abs(i - place) for place, (_, high) in known.items()),
+            )
+            for i in range(_PARTS + 1)
+        ]
+        widths = {i: high - low for i, (low, high) in enumerate(ranges) if i not in known}
+        widest = max(widths, key=widths.__getitem__, default=0)
+        if not widest or widths[widest] <= _NARROW * change:
+            return ranges
+        low, high = (synthesize(replace(problem, minimise=value(b, at=k[widest]))).lower_bound for b in ("b", "-b"))
+        known[widest] = low, -high

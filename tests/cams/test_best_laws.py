@@ -40,7 +40,6 @@ from tests.internals.cams import (
     CamFollower,
     SlidingRoller,
     SwingingRoller,
-    best_laws,
     curvature_of,
     linear_limits,
 )
@@ -189,9 +188,7 @@ BENT = {
 @pytest.mark.parametrize(
     "case", ["short", *(pytest.param(name, marks=pytest.mark.long) for name in ("both", "offset", "arm"))]
 )
-def test_curvature_under_a_roller_is_imposed_and_bounded(monkeypatch: pytest.MonkeyPatch, case: str) -> None:
-    if case == "short":
-        monkeypatch.setattr(best_laws, "_PARTS", 8)
+def test_curvature_under_a_roller_is_imposed_and_bounded(case: str) -> None:
     cycle, base, follower, limits = BENT[case]
     best = best_cam(cycle, base, follower, **limits)  # type: ignore[arg-type]
     expected = 1e-3 * float(limits["radius_of_curvature"].split()[0])
