@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import BPoly
 
-from optlaws import InputError, catalogue, read_cycle_table, split_table
-from tests.internals.cycles import OldTableReport
+from optlaws import InputError, catalogue, read_cycle_table, smoothstep, split_table
+from tests.internals.cycles import OldTableReport, least_peak
 
 QUINTIC = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
 
@@ -77,6 +77,49 @@ def test_a_move_that_begins_where_its_noisy_table_does(seed: int) -> None:
     assert [part.law for part in table.moves] == ["modified sine"] * 2
     ends = [end for part in table.moves for end in (part.start, part.stop)]
     assert ends == pytest.approx([0.0, 110.0, 200.0, 300.0], abs=0.01)
+
+
+def measured(law: str, seed: int, places: np.ndarray, noise: float = 0.005) -> np.ndarray:
+    """A cam of 33.42 mm with a rise of 63.9 deg from 30 deg on and a return of 93.6 deg from 180 deg on."""
+    motion = catalogue[law].law if law in catalogue else LAWS_OF_NOBODY[law]
+    up, down = (motion(np.clip(k, 0.0, 1.0)) for k in ((places - 30.0) / 63.9, (places - 180.0) / 93.6))
+    return np.round(33.42 * (up - down) + np.random.default_rng(seed).normal(0.0, noise, len(places)), 4)
+
+
+EVEN = np.linspace(0.0, 360.0, 901)
+UNEVEN = np.unique(np.random.default_rng(1).choice(3600, 1200)) / 10.0
+#: the acceleration of the first one jumps at its ends
+LAWS_OF_NOBODY = {"cubic and quintic": np.polynomial.Polynomial([0, 0, 2.1, 1.6, -4.5, 1.8]), "smooth": smoothstep(6)}
+
+
+@pytest.mark.parametrize("places", [np.delete(EVEN, 300), np.delete(EVEN, [100, 150, 173, 223, 500]), UNEVEN])
+def test_rows_left_out_and_uneven_places_hide_no_speck(places: np.ndarray) -> None:
+    heights = measured("cycloidal", 0, places)
+    at = int(np.searchsorted(places, 68.8))
+    heights[at] += 0.1
+    table = split_table(places, heights, turn=360.0)
+    assert table.outliers == (at,)
+    assert table.scatter < 0.008
+    assert [part.law for part in table.moves] == ["cycloidal"] * 2
+
+
+def test_no_window_of_few_rows_claims_more_than_a_motion_has() -> None:
+    """Of the 156 windows of 5 rows in a rise, noise alone gives one more than four standard deviations now and then."""
+    inside, law = (EVEN > 30.0) & (EVEN < 93.9), catalogue["modified trapezoid"].law.constants
+    truth = [33.42 * peak.value / 63.9**nu for nu, peak in ((1, law.B), (2, law.C), (3, law.J))]
+    for seed in range(100):
+        rows = EVEN[inside], measured("modified trapezoid", seed, EVEN)[inside], np.full(inside.sum(), 0.005)
+        assert [least_peak(*rows, 1e-4, nu) <= most for nu, most in enumerate(truth, 1)] == [True] * 3, seed
+
+
+@pytest.mark.parametrize("law", ["simple harmonic", "cycloidal", *LAWS_OF_NOBODY])
+def test_a_jump_of_acceleration_leaves_the_jerk_unknown(law: str) -> None:
+    known = law in {"cycloidal", "smooth"}
+    table = split_table(EVEN, measured(law, 1, EVEN))
+    assert len(table.moves) == 2
+    assert [part.law for part in table.moves if law in catalogue] == [law] * 2 * (law in catalogue)
+    assert [interval.is_known for interval in table.peaks] == [True, True, known]
+    assert ("jerk above" in str(table)) is not known
 
 
 def test_a_table_that_moves_at_its_seam_and_advances() -> None:

@@ -10,6 +10,7 @@ from optlaws.cycles.advising.candidates import Candidates
 from optlaws.cycles.answers import Answers, answer
 from optlaws.cycles.axes.enclosed import SimplePolygon
 from optlaws.cycles.old_tables.better_laws import nothing_to_better
+from optlaws.cycles.old_tables.peak_intervals import least_peak
 from optlaws.cycles.old_tables.reading import points_in
 from optlaws.cycles.old_tables.report import OldTableReport
 from optlaws.cycles.old_tables.stated_functions import stretches_of_pieces

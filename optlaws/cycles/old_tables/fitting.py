@@ -31,6 +31,8 @@ _COARSE = (1, 2, 4)
 #: a smoother joint is preferred if it lowers the sum of squares by so much of what the best one does
 _AS_GOOD = 0.8
 _MOST_JOINTS = 8
+#: how many numbers of pieces are tried without a jump of the acceleration at rests
+_MORE = 6
 #: how many models with more pieces than the best one are looked at beside it
 _FINER = 2
 #: by how much the criterion of Schwarz must fall for a joint to be there
@@ -103,6 +105,8 @@ class CurveFit:
         The lines or rests beside it, and how many derivatives, with the position, it has in common with these.
     pieces
         About how many polynomials it has.
+    jumps
+        Whether its acceleration jumps at a rest, where that of no other model as likely does not.
     """
 
     spline: BSpline
@@ -114,6 +118,7 @@ class CurveFit:
     ends: tuple[End, End]
     pieces: int = 1
     contact: int = 2
+    jumps: bool = False
 
     @property
     def degree(self) -> int:
@@ -259,6 +264,8 @@ class _Fitter:
             return squares, parameters, None
         factor = turned @ np.linalg.inv(r[:free, :free])
         spline = BSpline(knots, coefficients + factor @ r[:free, free], self.degree)
+        if self.advance is not None and self.continuity < 2:
+            joints = (Joint(start, self.continuity), *joints, Joint(stop, self.continuity))
         return (
             squares,
             parameters,
@@ -449,7 +456,7 @@ def fits_of(
     if plain and likely(rough.best(plain).squares, rough.rows):
         refined = [_refined(fitter, fit) for fit in rough.accepted(polynomials)]
         if likely(min(fit.squares for fit in refined), len(places)):
-            return refined
+            return rough.with_jumps(refined)
     joints: tuple[Joint, ...] = ()
     while not simple and len(joints) < _MOST_JOINTS and rough.best(fits).pieces > _SIMPLE:
         families = [each for pieces in _COARSE if (each := rough.joined(fits, joints, pieces))]
@@ -465,7 +472,8 @@ def fits_of(
         joints = rough.fitter.placed(at, joints, best.pieces)
     whole = _Search(fitter, rough.most)
     starts = {fit.pieces: (fit.start, fit.stop) for fit in fits}
-    return whole.accepted(whole.climbed(joints, at, float(np.median(np.diff(places))), starts))
+    accepted = whole.accepted(whole.climbed(joints, at, float(np.median(np.diff(places))), starts))
+    return whole.with_jumps(accepted)
 
 
 def likely(squares: float, rows: int) -> bool:
@@ -579,6 +587,21 @@ class _Search:
                     break
             families += [fits] if fits else []
         return min(families, key=lambda fits: self.criterion(self.best(fits)), default=[])
+
+    def with_jumps(self, fits: Sequence[CurveFit]) -> list[CurveFit]:
+        """Fits that know whether the acceleration jumps at a rest: whether the first one without is far less likely."""
+        fit = fits[0]
+        places = np.array([fit.start, fit.stop])[[end.line is not None for end in self.fitter.ends]]
+        if fit.contact > 2 or not np.any(np.abs(fit.values(places, 2)) > 3.0 * fit.deviation(places, 2)):
+            return list(fits)
+        fitter = replace(self.fitter, degree=fit.degree, contact=3, fine=_ROUGH)
+        near = 4.0 * float(np.median(np.diff(fitter.x)))
+        for pieces in range(fit.pieces, fit.pieces + _MORE):
+            at = fitter.ends_of(fit.start, fit.stop, fit.joints, pieces, near)
+            smooth = fitter.solved(*at, fit.joints, pieces, whole=True)[2]
+            if smooth is not None and self.criterion(smooth) <= self.criterion(fit) + _EVIDENT:
+                return list(fits)
+        return [replace(each, jumps=True) for each in fits]
 
     def joined(
         self, fits: Sequence[CurveFit], joints: tuple[Joint, ...], pieces: int

@@ -141,7 +141,9 @@ def rests_of(samples: Samples) -> list[Line]:
         if (last - first + 1 < _FEWEST and not exact) or taken[first : last + 1].any():
             continue
         taken[first : last + 1] = True
-        if _is_rest(x[first : last + 1], y[first : last + 1], size, samples.digit):
+        if _is_rest(
+            x[first : last + 1], y[first : last + 1], float(samples.noise[first : last + 1].max()), samples.digit
+        ):
             quarter = (last - first + 1) // 4
             inner = y[first + quarter : last + 1 - quarter]
             lines.append(Line(first, last, float(np.mean(inner))))
@@ -559,6 +561,7 @@ class _Region:
         rows, variance = len(self.x), chain.squares / max(len(self.x) - chain.free, 1)
         good = variance * (1.0 + 3.0 * np.sqrt(2.0 / rows))
         simple = [fit for fit in fits if fit.pieces <= SIMPLE and not fit.joints and fit.variance <= good][:1]
+        jumps = [chain.jumps(nu, turns=self.advance is not None) for nu in (1, 2)]
         for i, name in enumerate(chain.names):
             if not name:
                 continue
@@ -568,7 +571,7 @@ class _Region:
                 standard = (1.0 + _ROUNDED_LAW) * max(
                     each.peak(i, nu) * (1.0 + _UNCERTAIN * each.uncertainty(i, nu)) for each in chains
                 )
-                if nu > 1 and chain.has_corners(i):
+                if any(each[i] for each in jumps[: nu - 1]):
                     standard = np.inf
                 most.append(max(standard, most_peak(simple, nu, low, high) if simple else 0.0))
             if self._goes_on_at_seam(low, high):

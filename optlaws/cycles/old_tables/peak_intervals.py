@@ -13,8 +13,8 @@ from optlaws.cycles.old_tables.fitting import DEGREE, SIMPLE, CurveFit
 from optlaws.cycles.old_tables.samples import window_polynomials
 from optlaws.numbers import Array
 
-#: standard deviations by which estimates in bands are off at most, and in windows beyond what is usual for as many
-_ABOVE, _BEYOND = 3.0, 1.2
+#: standard deviations by which estimates in bands are off at most, and in windows beyond what as many, squared, have
+_ABOVE, _BEYOND = 3.0, 0.6
 #: of a peak, by which a spline may be off a smooth motion where the samples have all digits
 _APPROXIMATION = 1e-3
 #: of a difference of jerk by the length of pieces: what the peak of acceleration at a kink halfway between two knots is
@@ -85,7 +85,8 @@ def least_peak(places: Array, heights: Array, noise: Array, digit: float, nu: in
         u = (x - 0.5 * (x[:, -1] + x[:, 0])[:, None]) / span[:, None]
         weights = weights * (_FACTORIALS[nu] / (weights * u**nu).sum(axis=1))[:, None]
         values = np.abs((weights * y).sum(axis=1))
-        errors = (np.sqrt(2.0 * np.log(len(x) + 1.0)) + _BEYOND) * np.sqrt(((weights * sizes) ** 2).sum(axis=1))
+        # short windows are many and tell little: theirs is the smaller share of the chance to be wrong
+        errors = (2.0 * np.sqrt(np.log(len(x) + 1.0)) + _BEYOND) * np.sqrt(((weights * sizes) ** 2).sum(axis=1))
         if digit > 0.0:
             # rounding repeats itself where the motion is slow: then errors do not cancel
             coarse = sizes.max(axis=1) < digit
@@ -101,11 +102,13 @@ _FACTORIALS = (1.0, 1.0, 2.0, 6.0)
 def most_peak(fits: Sequence[CurveFit], nu: int, low: float, high: float) -> float:
     """The greatest magnitude of a derivative in the bands about fits between two places; inf without a fit."""
     most, peaks = 0.0, []
+    if nu > 2 and fits and fits[0].jumps and (low <= fits[0].start or fits[0].stop <= high):
+        return inf
     for fit in fits:
         start, stop = max(low, fit.start), min(high, fit.stop)
         if not start < stop:
             continue
-        if any(joint.continuity < nu and start < joint.place < stop for joint in fit.joints):
+        if any(joint.continuity < nu and start <= joint.place <= stop for joint in fit.joints):
             return inf
         inner = fit.breaks[(fit.breaks > start) & (fit.breaks < stop)]
         edges = np.concatenate([[start], inner, [stop]])

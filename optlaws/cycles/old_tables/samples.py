@@ -121,10 +121,8 @@ def samples_of(places: Array, heights: Array, digit: float = 0.0) -> Samples:
     x = even_places(places)
     unit = max(digit, unit_of_rounding(heights))
     least = np.full(len(x), max(unit / np.sqrt(12.0), LEAST_NOISE * float(np.ptp(heights))))
-    if np.ptp(np.diff(x)) > 1e-6 * np.median(np.diff(x)):
-        # uneven places that are rounded scatter the heights where the motion is fast
-        shift = np.abs(np.gradient(heights, x)) * unit_of_rounding(places) / np.sqrt(12.0)
-        least = np.hypot(least, np.where(x == places, shift, 0.0))
+    if x is places and np.ptp(np.diff(x)) > 1e-6 * np.median(np.diff(x)):
+        least = np.hypot(least, _scattered_by_places(x, heights))
     rests = _rests_exactly(heights)
     size = noise_of(x, heights, rests, computed=not unit)
     suspects = _far_points(x, heights, max(size, float(least.min())))
@@ -140,7 +138,7 @@ def samples_of(places: Array, heights: Array, digit: float = 0.0) -> Samples:
 
 
 def even_places(places: Array) -> Array:
-    """The even places that rounded ones were, if rounding explains all differences; else the places.
+    """The even places that rounded ones were, if rounding and rows left out explain all differences; else the places.
 
     Examples
     --------
@@ -152,14 +150,35 @@ def even_places(places: Array) -> Array:
     steps = np.diff(places)
     if not unit or len(places) < _FEWEST or np.ptp(steps) <= 1e-9 * steps.max():
         return places
-    for rows in (len(places), len(places) - 1):  # a row that closes the turn may follow
-        count = np.arange(rows)
-        line = np.polynomial.Polynomial.fit(count, places[:rows], 1)(count)
-        if np.abs(line - places[:rows]).max() <= 0.55 * unit and (rows == len(places) or line[-1] < places[-1]):
-            line[0] = places[0]
-            line[-1] = line[-1] if rows < len(places) else places[-1]
-            return np.append(line, places[rows:])
+    for count in (np.arange(len(places)), np.append(0, np.cumsum(np.round(steps / np.median(steps))))):
+        for rows in (len(places), len(places) - 1):  # a row that closes the turn may follow
+            line = np.polynomial.Polynomial.fit(count[:rows], places[:rows], 1)(count[:rows])
+            if np.abs(line - places[:rows]).max() <= 0.55 * unit and (rows == len(places) or line[-1] < places[-1]):
+                line[0] = places[0]
+                line[-1] = line[-1] if rows < len(places) else places[-1]
+                return np.append(line, places[rows:])
     return places
+
+
+def _scattered_by_places(places: Array, heights: Array) -> Array:
+    """By how much rounded places may scatter the heights where the motion is fast, as far as differences show it."""
+    before, after = (np.clip(np.arange(len(places)) + away, 0, len(places) - 1) for away in (-3, 3))
+    slopes = np.abs((heights[after] - heights[before]) / (places[after] - places[before]))
+    unit: float | Array = unit_of_rounding(places)
+    if unit and unit == _single_precision(places):
+        unit = np.spacing(np.abs(places).astype(np.float32)).astype(np.float64)
+    shift, shares = slopes * unit / np.sqrt(12.0), [1.0]
+    for order in _ORDERS if shift.any() else ():
+        if len(places) - order < _FEWEST:
+            break
+        weights = difference_weights(places, order)
+        supposed = np.sqrt(((weights * sliding_window_view(shift, order + 1)) ** 2).sum(axis=1))
+        sizes = np.abs(_differences(weights, heights)) / MEDIAN
+        least = float(np.median(supposed[supposed > 0.0]))
+        fast, slow = supposed >= least, supposed < 0.5 * least
+        of_slow = float(np.median(sizes[slow])) if slow.any() else 0.0
+        shares.append(float(np.sqrt(max(np.median((sizes[fast] ** 2 - of_slow**2) / supposed[fast] ** 2), 0.0))))
+    return min(shares) * shift
 
 
 def unit_of_rounding(values: Array) -> float:

@@ -33,8 +33,8 @@ _APART = 1e-9
 _INTERVALS = 2048
 #: moves of a chain of which every combination of the best laws is tried
 _MOST_COMBINED = 3
-#: of a velocity: a law rests at an end where it has less
-_AT_REST = 1e-9
+#: of the greatest velocity or acceleration: by so much it jumps where moves meet
+_JUMP = 1e-3
 #: parts of each piece of a law, each as a polynomial
 _PIECES_OF_LAW = 4
 #: of the last digit: rows that are no farther off are the law's own
@@ -97,10 +97,18 @@ class Chain:
         stroke = abs(self.heights[move + 1] - self.heights[move])
         return float(stroke / length**nu * catalogue[self.names[move]].law.peak(nu).value)
 
-    def has_corners(self, move: int) -> bool:
-        """Whether its velocity jumps at an end of a move."""
-        law = catalogue[self.names[move]].law
-        return max(abs(float(law.b(0.0))), abs(float(law.b(1.0)))) > _AT_REST
+    def jumps(self, nu: int, *, turns: bool) -> NDArray[np.bool_]:
+        """Whether a derivative jumps at an end of each move; the chain rests beside its ends, or goes on at the other."""
+        ends, greatest = np.zeros((len(self.names), 2)), 0.0
+        for i, name in enumerate(self.names):
+            if name:
+                scale = np.diff(self.heights)[i] / np.diff(self.places)[i] ** nu
+                ends[i] = scale * np.array([catalogue[name].law(k, nu) for k in (0.0, 1.0)])
+                greatest = max(greatest, self.peak(i, nu))
+        before, after = np.roll(ends[:, 1], 1), np.roll(ends[:, 0], -1)
+        before[0], after[-1] = (before[0], after[-1]) if turns else (0.0, 0.0)
+        apart = np.maximum(np.abs(ends[:, 0] - before), np.abs(ends[:, 1] - after))
+        return np.asarray(apart > _JUMP * greatest)
 
     def uncertainty(self, move: int, nu: int) -> float:
         """The share of a peak by which it may be wrong, one standard deviation."""
