@@ -1,6 +1,6 @@
 """Limits behind gears with losses, and motions of limits by integration, beside closed forms."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from math import sqrt
 from typing import Any
 
@@ -187,9 +187,14 @@ def test_a_motor_that_is_too_weak_is_proven_to_be() -> None:
 EXACT = 1e-8
 
 
+@pytest.fixture(autouse=True)
+def forty_digits() -> Iterator[None]:
+    with mp.workdps(40):
+        yield
+
+
 def least_time_against_waves(P: float, height: float, waves: float) -> float:
     """The least time for |c + height sin(waves a)| <= P: first at P, then at -P."""
-    mp.mp.dps = 40
 
     def ahead(a: mp.mpf) -> mp.mpf:
         return 2 * P * a - 2 * height * (1 - mp.cos(waves * a)) / waves
@@ -231,7 +236,6 @@ def test_no_motion_comes_to_rest_against_a_spring_by_less_than_its_mean(slope: f
 
 def least_peak_with_drag(drag: float) -> float:
     """The least P within which c + drag b moves from rest to rest in the time 1: first at P, then at -P."""
-    mp.mp.dps = 30
     R = mp.mpf(drag)
 
     def misses(P: mp.mpf, ahead: mp.mpf) -> list[mp.mpf]:
@@ -253,7 +257,6 @@ def test_drag_from_rest_is_integrated_as_exactly_as_without(drag: float) -> None
 
 def least_time_with_drag(drag: float, P: float, C: float) -> float:
     """The least time for c + drag b <= P and abs(c) <= C: at C up to where both meet, then at P, then at -C."""
-    mp.mp.dps = 30
     change = (P - C) / drag
 
     def at(time: mp.mpf) -> tuple[mp.mpf, mp.mpf]:

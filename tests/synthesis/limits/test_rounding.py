@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import partial
 from math import inf
@@ -23,7 +24,12 @@ from tests.internals.synthesis import (
 )
 from tests.internals.verification import prove
 
-mpmath.mp.dps = 60
+
+@pytest.fixture(autouse=True)
+def sixty_digits() -> Iterator[None]:
+    with mpmath.workdps(60):
+        yield
+
 
 GENERATOR = np.random.default_rng(11)
 NEAR = [1.0 + 2.0**-40, 1.1, 1.5 - 2e-9, 1.5, 1.5 + 2.0**-52, 1.5 + 1e-7, 2.0, 2.0 + 1e-12, 1e6]
