@@ -33,6 +33,7 @@ from optlaws.verification.enclosing.taylor_models import between, least_and_grea
 from optlaws.verification.exact.bound import Proof, prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.limit import exact_limit
+from optlaws.verification.exact.rows import NoExactRowsError
 from optlaws.verification.reading import built, number
 from optlaws.verification.result import (
     Claim,
@@ -57,6 +58,8 @@ _BESIDE = ("power_certificate", "peak_certificate")
 _IN_DOUBLES = "its enclosure has no end; in doubles it holds"
 #: claims that the enclosure of the objective decides
 _BY_OBJECTIVE = ("the objective", "the gap", "optimal", "the status")
+#: and those that the bound decides
+_BY_BOUND = ("the lower bound", "the gap", "optimal", "the status")
 
 
 def exact_law(data: object) -> ExactLaw:
@@ -74,7 +77,7 @@ def law_alone(data: Data) -> Verification:
 def certificate(data: Data) -> Verification:
     """The bound of a certificate, or that its problem has no law."""
     proof_of = built(Certificate.from_dict, data, "the certificate")
-    proof = prove(proof_of)
+    proof = _proof(proof_of)
     contradiction = proof_of.program == VIOLATION
     known = Verification(
         problem=proof_of.problem,
@@ -83,6 +86,14 @@ def certificate(data: Data) -> Verification:
         charge=proof.charge,
     )
     return with_claims(known, _proof_claims(proof, proof_of, data, "the certificate"))
+
+
+def _proof(certificate: Certificate) -> Proof:
+    """What a certificate proves; nothing, and why, where there are no exact rows."""
+    try:
+        return prove(certificate)
+    except NoExactRowsError as error:
+        return Proof(None, no_rows=str(error))
 
 
 def arrays(data: Data) -> Verification:
@@ -129,9 +140,9 @@ def solution(data: Data) -> Verification:
         proof_of = built(Certificate.from_dict, data[key], _name(key))
         if proof_of.program == VIOLATION:
             raise InputError("a proof that no law exists beside a law: verify the certificate alone")
-        proofs[key] = proof_of, prove(proof_of)
+        proofs[key] = proof_of, _proof(proof_of)
     drive = None if data.get("drive_limit") is None else built(DriveLimit.from_dict, data["drive_limit"], "drive_limit")
-    bound, source = _best(problem, proofs, drive)
+    bound, source, no_rows = _best(problem, proofs, drive)
     objective, scale = enclosed(law.sum(problem.objective)), problem.objective.scale
     conditions = excesses(problem, law)
     # long formulas may have enclosures without an end, which neither prove nor refute
@@ -167,11 +178,13 @@ def solution(data: Data) -> Verification:
     of_file = list(compare(data, stated | others, "the solution"))
     if open_ended:
         of_file = [_in_doubles(claim) if claim.name in _BY_OBJECTIVE else claim for claim in of_file]
+    if no_rows:
+        of_file = [_in_doubles(claim, no_rows) if claim.name in _BY_BOUND else claim for claim in of_file]
     known = Verification(
         problem=problem,
-        bound=None if bound is None else rounded_down(bound),
+        bound=None if bound is None or no_rows else rounded_down(bound),
         objective=objective,
-        gap=None if open_ended else gap,
+        gap=None if open_ended or no_rows else gap,
         constants=law.enclosures(),
         excesses={condition.name: condition.by for condition in conditions},
         charge=proofs["certificate"][1].charge,
@@ -179,9 +192,9 @@ def solution(data: Data) -> Verification:
     return with_claims(known, [*claims, *of_file])
 
 
-def _in_doubles(claim: Claim) -> Claim:
+def _in_doubles(claim: Claim, why: str = _IN_DOUBLES) -> Claim:
     """A claim that doubles alone support; one that they refute stays not proven."""
-    return recomputed(claim.name, _IN_DOUBLES) if claim.proven else claim
+    return recomputed(claim.name, why) if claim.proven else claim
 
 
 def _name(key: str) -> str:
@@ -190,19 +203,27 @@ def _name(key: str) -> str:
 
 def _best(
     problem: Problem, proofs: Mapping[str, tuple[Certificate, Proof]], drive: DriveLimit | None
-) -> tuple[Fraction | None, str]:
-    """The highest bound that is proven of the problem, and by what if not by its first certificate."""
+) -> tuple[Fraction | None, str, str]:
+    """The highest bound of the problem, by what if not by its first certificate, and why it is of doubles if it is."""
+    of_problem = {key: each for key, each in proofs.items() if each[0].problem == problem}
     known = [
-        (proof.value, f" by {_name(key)}" if key in _BESIDE else "")
-        for key, (proof_of, proof) in proofs.items()
-        if proof_of.problem == problem and proof.value is not None
+        (value, f" by {_name(key)}" if key in _BESIDE else "", proof.no_rows)
+        for key, (proof_of, proof) in of_problem.items()
+        if (value := _in_exact_rows_or_doubles(proof_of, proof)) is not None
     ]
     if drive is not None and drive.is_of(problem):
-        known.append((Fraction(drive.bound), " by the phase plane"))
+        known.append((Fraction(drive.bound), " by the phase plane", ""))
     limit = exact_limit(problem)
     if limit is not None:
-        known.append((limit, " by the limit of laws of any degree"))
-    return max(known, key=lambda bound: bound[0], default=(None, ""))
+        known.append((limit, " by the limit of laws of any degree", ""))
+    return max(known, key=lambda bound: bound[0], default=(None, "", ""))
+
+
+def _in_exact_rows_or_doubles(certificate: Certificate, proof: Proof) -> Fraction | None:
+    """The bound of a certificate, in doubles where there are no exact rows; None where there is none."""
+    if proof.no_rows and certificate.estimate > -inf:
+        return Fraction(certificate.estimate)
+    return proof.value
 
 
 def _constants(law: ExactLaw, stated: object, name: str) -> Iterator[Claim]:
@@ -304,7 +325,9 @@ def _proof_claims(proof: Proof, proof_of: Certificate, data: Data, name: str) ->
 def stated_bound(proof: Proof, proof_of: Certificate, data: Data, name: str) -> Iterator[Claim]:
     """The claim of a bound that stands in a certificate."""
     if data.get("bound") is not None:
-        yield at_most(f"{name}'s bound", number(data, "bound"), proof.value, proof_of.problem.objective.scale)
+        value = _in_exact_rows_or_doubles(proof_of, proof)
+        claim = at_most(f"{name}'s bound", number(data, "bound"), value, proof_of.problem.objective.scale)
+        yield _in_doubles(claim, proof.no_rows) if proof.no_rows else claim
 
 
 def _leaf_claims(proof: Proof, proof_of: Certificate) -> Iterator[Claim]:
@@ -321,7 +344,7 @@ def _leaf_claims(proof: Proof, proof_of: Certificate) -> Iterator[Claim]:
         detail = f"less {proof.charge:.1e} at most for what depends on the law"
     if not proof.by_rows:
         detail = "not needed: what is minimised is never below the bound"
-    yield Claim("sum of the rows", proof.value is not None, detail)
+    yield Claim("sum of the rows", proof.value is not None, proof.no_rows or detail, checked=not proof.no_rows)
 
 
 def _gap(gap: float | None, over: float, value: float) -> Claim:

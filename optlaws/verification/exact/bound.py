@@ -45,6 +45,8 @@ class Proof:
     slope: tuple[Fraction, Fraction] = (Fraction(0), Fraction(0))
     #: whether the rows prove it; otherwise what is minimised is never less, and multipliers do not count
     by_rows: bool = True
+    #: why there are no exact rows, so that nothing is proven and nothing is refuted
+    no_rows: str = ""
 
 
 @dataclass(frozen=True)

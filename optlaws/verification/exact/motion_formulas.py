@@ -313,33 +313,53 @@ def tangent_integral(space: ExactSpace, motion: MotionFormula, point: Sequence[f
     return row
 
 
-def straight_integral(space: ExactSpace, motion: MotionFormula, point: Sequence[float]) -> list[arb]:
-    """An affine lower bound of the integral of a maximum of affine formulas.
+def convex_branches(motion: MotionFormula) -> list[MotionFormula] | None:
+    """Smooth convex formulas of which a formula is the greatest; None where it is no such maximum."""
+    several = [replace(motion, formula=formula) for formula in motion.branches(1.0) or []]
+    return several if several and all(branch.curvature.convex for branch in several) else None
 
-    On every stretch it is the integral of that one which is the greatest there in a law, whose variables the point
-    gives: whichever it is, the formula is nowhere below it. LookupError where the formula is no such greatest.
+
+def kinked_integral(space: ExactSpace, motion: MotionFormula, point: Sequence[float]) -> list[arb]:
+    """An affine lower bound of the integral of a maximum of smooth convex formulas.
+
+    On every stretch it is the integral of a tangent of that one which is the greatest there in a law, whose variables
+    the point gives: whichever it is, the formula is nowhere below it. LookupError where the point belongs to no such
+    row.
     """
-    formulas = motion.branches(1.0) or []
-    straight = [replace(motion, formula=formula) for formula in formulas]
+    branches = convex_branches(motion) or []
     laws = space_of(space.problem.basis, space.problem.conditions, symmetric=space.problem.symmetric)
-    if not straight or any(branch.affine is None for branch in straight) or len(point) < laws.terms:
+    if not branches or len(point) < laws.terms:
         raise LookupError
     family = integral_rows(laws, motion, "", np.zeros(laws.terms), 0.0, root=False, convex=True)
     if not isinstance(family, KinkedIntegralFamily):
         raise LookupError  # noqa: TRY004 - the point belongs to no such row
-    law = np.array(point[: laws.terms])
+    law = np.append(np.array(point[: laws.terms]), 1.0)
     columns = [arb(0)] * (space.terms + 1)
-    for stretch in family.split(law).stretches:
+    for stretch in family.split(law[:-1]).stretches:
         # at one of them formulas may be equal: in its middle a symmetric law touches what is a kink elsewhere
         places = stretch.low + (stretch.high - stretch.low) * np.array(_WITHIN)
-        values = zip(family.names, family.columns_at(places) @ np.append(law, 1.0), strict=True)
-        names = {**dict(values), "k": places}
-        heights = [float(np.sum(branch.values(names))) for branch in straight]
-        greatest = straight[heights.index(max(heights))]
+        names = {**dict(zip(family.names, family.columns_at(places) @ law, strict=True)), "k": places}
+        heights = [float(np.sum(branch.values(names))) for branch in branches]
+        greatest = branches[heights.index(max(heights))]
         for ends, _ in _within(space, greatest, [Fraction(stretch.low), Fraction(stretch.high)]):
-            several = _weighted(space, greatest, fmpq_poly([1]), ends)
+            if greatest.affine is not None:
+                several = _weighted(space, greatest, fmpq_poly([1]), ends)
+            else:
+                tangent = _Tangent(on_part(greatest.formula, *ends), _along(space, family, law, ends), ends, root=False)
+                *several, _ = integrals(tangent.series, tangent.columns(space), ends, ctx.prec // 4, tangent.rough)
             columns = [entry + other for entry, other in zip(columns, several, strict=True)]
     return columns
+
+
+def _along(
+    space: ExactSpace, family: KinkedIntegralFamily, law: Array, ends: tuple[Fraction, Fraction]
+) -> dict[str, fmpq_poly]:
+    """The derivatives of a law between two k, nearly, as polynomials of what runs from -1 to 1 between these."""
+    degrees = [space.degree_of(ORDERS[name]) for name in family.names]
+    x, _ = legendre.leggauss(max(degrees) + 1)
+    low, high = map(float, ends)
+    values = family.columns_at(low + (high - low) * (x + 1.0) / 2.0) @ law
+    return {name: fitted(*each) for name, *each in zip(family.names, values, degrees, strict=True)}
 
 
 @dataclass(frozen=True)

@@ -39,9 +39,10 @@ from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball, upper
 from optlaws.verification.exact.law import DerivativePeak, ExactLaw, OfFormula, OfMachine, known, of_derivatives
 from optlaws.verification.exact.motion_formulas import (
+    convex_branches,
     formula_columns,
+    kinked_integral,
     norm_columns,
-    straight_integral,
     tangent_columns,
     tangent_integral,
 )
@@ -54,6 +55,11 @@ from optlaws.verification.machines.residuals import exact_residual
 _NEAR = Fraction(1, 10**9)
 #: what makes up for the rounding of a few operations in doubles
 _ROUNDED = 1 + Fraction(1, 2**40)
+
+
+class NoExactRowsError(InputError):
+    """There are no exact rows for a constant of a problem, whose bounds are those of doubles."""
+
 
 Place = Callable[[Fraction], list[arb]]
 Names = Mapping[str, float | arb]
@@ -253,13 +259,14 @@ class ExactRows:
             self._add(name, lambda contact, _: limit.row(value / whole for value in columns(contact.direction)))
             return
         root, kinked = isinstance(constant, FormulaRms), bool(switches(motion.formula, ORDERS))
-        if root and kinked:
-            raise InputError(f"there are no exact rows for {name}: it is the root mean square of a formula with kinks")
+        if kinked and (root or convex_branches(motion) is None):
+            of = "root mean square of a formula with kinks" if root else "integral of no maximum of convex formulas"
+            raise NoExactRowsError(f"there are no exact rows for {name}: it is the {of}")
         unit = ball(constant.length).sqrt() if isinstance(constant, FormulaRms) else arb(1)
 
         def make(contact: Contact, _: Fraction) -> BallRow:
             if kinked:
-                return limit.row(straight_integral(self.space, motion, contact.direction))
+                return limit.row(kinked_integral(self.space, motion, contact.direction))
             squares = squared(motion) if root else motion
             columns = tangent_integral(self.space, squares, contact.direction, root=root)
             return limit.row(value / unit for value in columns)

@@ -8,7 +8,7 @@ from typing import Any
 import mpmath as mp  # type: ignore[import-untyped]
 import pytest
 
-from optlaws import Chebyshev, Problem, integral, peak, smoothstep, synthesize
+from optlaws import Chebyshev, Problem, at_most, integral, peak, smoothstep, synthesize
 from optlaws.verification import verify
 from tests.formulas.mpmath_numbers import MPMATH
 from tests.internals.formulas import Formula, Table, evaluate, horner, of_text, pieces
@@ -93,6 +93,8 @@ KINDS = [
     "peak(spline(a, 0:1.25, 0.2:0.27, 0.4:0.01, 0.6:0.01, 0.8:0.27, 1:1.25) + abs(c), side=high)",
     "rms(norm(b, c))",
     "integral(max(k, 0.4)*c^2)",
+    "integral(max(c^2, 9*b^2))",
+    "integral(table(c, -9:9, 0:0, 9:4) + exp(b))",
 ]
 
 
@@ -108,7 +110,10 @@ def test_every_convex_kind_is_proven(minimise: str, symmetric: bool) -> None:  #
     assert verification.gap < 1e-9
 
 
-@pytest.mark.parametrize("minimise", sampled(["rms(sin(3*k)*b + c)", "integral(exp(c/5))", f"rms({TABLE}*exp(k)*c)"]))
+@pytest.mark.parametrize(
+    "minimise",
+    sampled(["rms(sin(3*k)*b + c)", "integral(exp(c/5))", f"rms({TABLE}*exp(k)*c)", "integral(max(c^2, 9*b^2))"]),
+)
 def test_what_is_overstated_is_refused(minimise: str) -> None:
     data = synthesize(Problem(B=1.9, order=3, basis=Chebyshev(5), minimise=minimise)).to_dict()
     true = verify(data)
@@ -122,6 +127,23 @@ def test_what_is_overstated_is_refused(minimise: str) -> None:
         assert not verify(tampered).proven
     contact["direction"] = contact["direction"][:-1]
     assert overstated(tampered, true) == []
+
+
+@pytest.mark.parametrize("minimise", ["rms(max(c, 0))", "integral(max(c + 3*a - 2, 0)^2)"])
+def test_a_bound_without_exact_rows_is_recomputed_in_doubles(minimise: str) -> None:
+    problem = Problem(B=1.8, order=4, basis=Chebyshev(5), C=at_most(6.0), minimise=minimise)
+    data = synthesize(problem).to_dict()
+    checked = verify(data)
+    assert checked.proven
+    assert checked.bound is checked.gap is None
+    assert [(claim.name, "no exact rows" in claim.detail) for claim in checked.unchecked] == [("sum of the rows", True)]
+    assert {"the lower bound", "the gap", "optimal"} <= {claim.name for claim in checked.recomputed}
+    alone = verify(data["certificate"])
+    assert alone.proven
+    assert [claim.name for claim in alone.recomputed] == ["the certificate's bound"]
+    assert not verify(data | {"lower_bound": data["objective"] * (1.0 + 1e-6)}).proven
+    data["certificate"]["bound"] = data["objective"] * (1.0 + 1e-6)
+    assert not verify(data["certificate"]).proven
 
 
 def test_a_peak_below_0_lets_no_limit_of_c_stand_for_the_sum() -> None:
