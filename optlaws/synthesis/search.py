@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from math import inf
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -22,11 +22,11 @@ from optlaws.synthesis.problem.constants import Functional, PeakConstant
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import LawEvaluation, evaluate, shortfalls
-from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.make import certify
 from optlaws.synthesis.solution import Solution, partly_known
-from optlaws.synthesis.status import Status, status_of
+from optlaws.synthesis.status import status_of
 from optlaws.tolerances import AGREEMENT, NO_OBJECTIVE, OPTIMALITY_GAP
 
 if TYPE_CHECKING:
@@ -286,19 +286,11 @@ def _of_any_way(search: LawSearch) -> Solution | None:
     if search.method == IPOPT:
         return solution
     if solution is None or (problem.convex and search.outcomes[0].optimum is None):
-        unfolded = from_symmetric(search) if problem.mirrored else None
-        around = unfolded or (solved_without_interior(search) if problem.convex else None)
+        around = solved_without_interior(search) if problem.convex else None
         known = [answer for answer in (solution, around) if answer is not None]
         return min(known, key=lambda answer: abs(answer.gap), default=None)
-    if _is_met(solution):
-        return solution
-    if problem.convex and _beyond_proof(solution):
+    if problem.convex and not _is_met(solution) and _beyond_proof(solution):
         return solved_without_interior(search) or solution
-    if problem.mirrored and solution.status is Status.INACCURATE:
-        unfolded = from_symmetric(search)
-        # a law that breaks a bound by the little that is allowed may seem nearer its bound
-        exact = evaluate(problem, solution.law).excess <= _UNDIVIDED_ROUNDING
-        return solution if unfolded is None or (exact and unfolded.gap >= solution.gap) else unfolded
     return solution
 
 
@@ -309,31 +301,6 @@ def continued_by_contacts(search: LawSearch) -> Solution | None:
         return None
     search.outcomes.append(outcome)
     return search.certified(outcome.optimum, best, raised=False)
-
-
-def from_symmetric(search: LawSearch) -> Solution | None:
-    """The best symmetric law as a law of the problem, with the bound of its contacts for all laws.
-
-    Among unsymmetric laws the optimum may be flat, so that no active set shows there.
-    """
-    from optlaws.synthesis.proof import mirroring
-
-    model, half = search.model, model_of(replace(search.problem, symmetric=True))
-    try:
-        symmetric = best_available(LawSearch(half))
-    except SolverFailure:
-        return None
-    if symmetric is None:
-        return None
-    optimum = mirroring.unfolded(model, half, symmetric.active_set)
-    at_best = np.append(mirroring.coordinates(model, symmetric.law), optimum.x[model.space.terms :])
-    best = feasible(model, optimum.at(at_best))
-    if best is None:
-        return None
-    plain = _Laws(model).candidate(optimum)
-    raised = plain is not None and bool(shortfalls(search.problem, plain.law))
-    outcome = Outcome(optimum, symmetric.iterations, 0, "from the symmetric law")
-    return LawSearch(model, outcomes=[outcome], began=search.began).certified(optimum, best, raised=raised)
 
 
 def solved_without_interior(search: LawSearch) -> Solution | None:

@@ -41,7 +41,7 @@ from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.synthesis.method.discretised.conic import conic_optimum, optimum_on_points
 from optlaws.synthesis.method.discretised.expressions import KINDS, RowShape
 from optlaws.synthesis.method.discretised.grids import first_points
-from optlaws.synthesis.method.discretised.linear import sharpened, vertex_on_points
+from optlaws.synthesis.method.discretised.linear import vertex_on_points
 from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.exchange import Outcome, solve
@@ -77,7 +77,7 @@ from optlaws.synthesis.proof.power.rows import Anchors, PowerRows, rows_of, velo
 from optlaws.synthesis.proof.power.search import Region, _points, searched
 from optlaws.synthesis.proof.power.shared_energy import secant_over_inverse, secant_over_root
 from optlaws.synthesis.proof.sublevel_bounds import Sublevel, spread
-from optlaws.synthesis.search import LawSearch, attempt, from_symmetric
+from optlaws.synthesis.search import LawSearch, attempt
 from optlaws.synthesis.solve import _neighbours
 from optlaws.synthesis.solve_many import _together, solved
 from optlaws.synthesis.spaces.bases import basis

@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet, Contact
 from optlaws.synthesis.families.family import ConstraintFamily, Points, Program
-from optlaws.synthesis.method.contacts import completed, polished
+from optlaws.synthesis.method.contacts import polished
 from optlaws.synthesis.method.discretised.answer import Answer
-from optlaws.synthesis.method.discretised.linear import sharpened
-from optlaws.tolerances import BARRIER, EXCESS, SAME_PLACE
+from optlaws.tolerances import BARRIER, SAME_PLACE
 
 _SAME_HEIGHT = 1e-9  # what an extremum's residual may be below that of a point on its hill: rounding of a series
 
@@ -22,13 +21,7 @@ def optimum_near(
     program: Program, holds: Callable[[Array], bool] | None, points: list[Points], answer: Answer
 ) -> ActiveSet | None:
     """The optimum that an answer is near to; None where the contacts are not plain yet."""
-    optimum = polished(program, _identified(program, points, answer), holds)
-    if optimum is not None or program.curved:
-        return optimum
-    sharp = sharpened(program, points, answer)
-    # beside a contact the law may stick out where the optimum is flat
-    exact = sharp is not None and completed(program, sharp) is sharp and program.violation(sharp.x) <= EXCESS
-    return sharp if exact else None
+    return polished(program, _identified(program, points, answer), holds)
 
 
 def as_answered(points: list[Points], answer: Answer) -> ActiveSet:

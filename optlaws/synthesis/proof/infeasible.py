@@ -12,13 +12,11 @@ import numpy as np
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.family import LinearFamily, Points
+from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.families.names import RowName
-from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
-from optlaws.synthesis.method.discretised.linear import vertex_on_points
+from optlaws.synthesis.method.discretised.grids import first_points
 from optlaws.synthesis.method.equations import contradiction
 from optlaws.synthesis.method.exchange import Outcome, answer_on_points, solve
-from optlaws.synthesis.method.identified import as_answered
 from optlaws.synthesis.problem.constants import C, Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window
@@ -36,7 +34,6 @@ _DEEP_LAW_EXCESS = 1e-3  # by how much a law far below all of the field may miss
 _FREE = 1e-15  # of a law's coordinate: what moves a value by less does not move it but for rounding
 _VALUE_ROUNDING = 1e-13  # of a value that all laws have: a bound that is nearer does not exclude it for certain
 
-_ROUNDS = 6
 _DEPTH = 1e5  # of an objective: beyond what laws of the field have
 _PLAIN = 2  # so few equations contradict each other whatever freedom the law has
 _MORE_FREEDOM = {PolynomialBasis: "A higher degree of Z", Basis: "More pieces, a higher degree, a lower continuity"}
@@ -69,9 +66,8 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
     beyond = beyond_limit(problem)
     trial = solve(elastic.program)
     proof = None if trial.optimum is None else violation_certificate(elastic, trial.optimum)
-    if proof is None or not proof.proves_infeasible:
-        repairable = () if proof is None else (each for each in spread(elastic, proof) if each.proves_infeasible)
-        proof = _at_vertices(elastic) or next(iter(repairable), proof)
+    if proof is not None and not proof.proves_infeasible:
+        proof = next((each for each in spread(elastic, proof) if each.proves_infeasible), proof)
     if proof is not None and proof.proves_infeasible:
         return InfeasibleProblem(
             beyond or _why(problem, proof, elastic), problem=problem, proof=proof, tried=_contradiction(proof)
@@ -198,27 +194,6 @@ def _disagreement(elastic: Model) -> Certificate | None:
     stated = tuple(elastic.program.stated_multipliers(weights).tolist())
     proof = Certificate.of_leaf(elastic.problem, (), stated, VIOLATION)
     return proof if proof.proves_infeasible else None
-
-
-def _at_vertices(elastic: Model) -> Certificate | None:
-    """Proof by the simplex method that rows at finitely many places contradict each other: so do those everywhere."""
-    program = elastic.program
-    if program.curved:
-        return None
-    points = [
-        inner.joined(Points(np.tile(family.domain, len(family.signs)), np.repeat(family.signs, 2)))
-        for family, inner in zip(program.families, first_points(program), strict=True)
-    ]
-    for _ in range(_ROUNDS):
-        vertex = vertex_on_points(program, points)
-        if vertex is None:
-            return None
-        # its rows may contradict each other before all active rows are known
-        proof = violation_certificate(elastic, as_answered(points, vertex))
-        if proof.proves_infeasible:
-            return proof
-        points = with_extrema(program, points, vertex.x)
-    return None
 
 
 def _disagreeing(problem: Problem, proof: Certificate, elastic: Model) -> str:

@@ -1,9 +1,4 @@
-"""Certificates from an optimum's multipliers, with the best bound that can be proven.
-
-At a law in which a formula with kinks vanishes along a stretch, or nearly does, the slope of its integral jumps: one
-tangent leaves a slope that rounding, or a kink, hides. Tangents on all sides of the law, weighted by a linear program,
-have the slope that the optimum requires, exactly.
-"""
+"""Certificates from an optimum's multipliers, with the best bound that can be proven."""
 
 from __future__ import annotations
 
@@ -15,13 +10,12 @@ import numpy as np
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.curved import FormulaFamily, IntegralFamily
+from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily
-from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points
-from optlaws.synthesis.families.kinked import KinkedIntegralFamily
+from optlaws.synthesis.families.family import LinearFamily, NormFamily
 from optlaws.synthesis.families.names import RowName, VariableName, velocity_at_peak
 from optlaws.synthesis.functionals.sizes import nonnegative_weights
-from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
+from optlaws.synthesis.method.discretised.grids import first_points
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.newton import newton
 from optlaws.synthesis.problem.constants import D
@@ -34,9 +28,8 @@ from optlaws.synthesis.proof.sublevel_bounds import Sublevel
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.tolerances import EMPTY_ROW, OPTIMALITY_GAP
 
-_CUTS_ENOUGH = 2e-9  # of an objective: what cuts may leave
-_LEFT_SHARES = (1e-12, 1e-11, 1e-10, 1e-9)  # of a constant's weight: what a proof leaves of it to pay for rounding
 _LIGHT_SHARES = (1e-13, 1e-12, 1e-11, 1e-10)  # of all multipliers: what each contact has that is there for rounding
+_LEFT_SHARES = (1e-12, 1e-11, 1e-10, 1e-9)  # of a constant's weight: what a proof leaves of it to pay for rounding
 _FOUR_WAYS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
 _DIRECTIONS_RANK = 1e-10  # of the greatest singular value of pulls: less is rounding
 _APEX = 1e-11  # of the sum of magnitudes: a norm that is less is 0 but for rounding
@@ -106,10 +99,7 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
         proof = max(proof, repairable, key=lambda known: known.bound)
         if proof.bound >= enough:
             return proof
-    if proof.bound == -np.inf:
-        proof = max((proof, *_leaving(model, optimum)), key=lambda known: known.bound)
-    several = _Tangents(model, optimum).certificate(objective) if _needs_tangents(model) else None
-    return several if several is not None and several.bound > proof.bound else proof
+    return max((proof, *_leaving(model, optimum)), key=lambda known: known.bound) if proof.bound == -np.inf else proof
 
 
 def _of_one_side(model: Model) -> bool:
@@ -326,101 +316,3 @@ def _with_direction(contact: Contact, direction: Array) -> Contact:
     """A contact whose direction is scaled to length 1, with a greater multiplier."""
     length = max(float(np.linalg.norm(direction)), 1.0)
     return replace(contact, multiplier=contact.multiplier * length, direction=tuple((direction / length).tolist()))
-
-
-_ROUNDS = 24
-#: how far beside the law tangents touch at first, in times the greatest variable, and shares of the way to a vertex
-_BESIDE = (1e-2, 1e-5, 1e-8)
-_SHARES = (1.0, 0.3, 1e-2, 1e-4, 1e-7)
-#: how far a vertex may be from the law, in the same
-_AROUND = 10.0
-_MOST_TANGENTS = 600
-
-
-def _needs_tangents(model: Model) -> bool:
-    """Whether the program has convex integrals with kinks, and else rows that are straight."""
-    families = model.program.families
-    kinked = [family for family in families if isinstance(family, KinkedIntegralFamily)]
-    others = [family for family in families if not isinstance(family, KinkedIntegralFamily | LinearFamily)]
-    return bool(kinked) and not others and all(family.convex for family in kinked)
-
-
-class _Tangents:
-    def __init__(self, model: Model, optimum: ActiveSet) -> None:
-        self.model, self.x = model, optimum.x
-        program = model.program
-        self.straight = [family for family in program.families if isinstance(family, LinearFamily)]
-        self.kinked = [family for family in program.families if isinstance(family, KinkedIntegralFamily)]
-        several = with_extrema(program, first_points(program), optimum.x)
-        self.points = [
-            points.joined(Points(optimum.u[optimum.family == i], optimum.s[optimum.family == i]))
-            for i, (family, points) in enumerate(zip(program.families, several, strict=True))
-            if isinstance(family, LinearFamily)
-        ]
-        self.size = max(1.0, float(np.abs(optimum.x).max()))
-        self.rows: list[tuple[IntegralFamily, tuple[float, ...], Array]] = []
-        self._touch(self.x)
-        for way in np.eye(model.space.terms, program.size):
-            for reach in _BESIDE:
-                for sign in (1.0, -1.0):
-                    self._touch(self.x + sign * reach * self.size * way)
-
-    def _touch(self, x: Array) -> None:
-        for family in self.kinked:
-            point = family.touching(x, 1.0)
-            row = family.tangent_row(1.0, 1.0, point)
-            if row is not None and np.isfinite(row).all():
-                self.rows.append((family, point, row))
-
-    def certificate(self, objective: float) -> Certificate | None:
-        """The best certificate of vertices, each of which shows where the next tangents touch; None where none is."""
-        from optlaws.synthesis.method.discretised.linear import LinearTable, vertex_on_points
-
-        best: Certificate | None = None
-        for _ in range(_ROUNDS):
-            families, points = self._families()
-            program = replace(self.model.program, families=families)
-            vertex = vertex_on_points(program, points)
-            if vertex is None:
-                return best
-            *weights, equations = LinearTable(program, points).sharp(vertex, points).multipliers
-            proof = self._stated(weights, points, equations)
-            best = proof if best is None or proof.estimate > best.estimate else best
-            if (
-                best.estimate >= objective - _CUTS_ENOUGH * max(abs(objective), _CUTS_ENOUGH)
-                or len(self.rows) > _MOST_TANGENTS
-            ):
-                return best
-            for share in _SHARES:
-                self._touch(self.x + share * (vertex.x - self.x))
-            straight = replace(self.model.program, families=tuple(self.straight))
-            self.points = with_extrema(straight, self.points, vertex.x)
-        return best
-
-    def _families(self) -> tuple[tuple[ConstraintFamily, ...], list[Points]]:
-        """The straight families, a row for each tangent, and a box that is none of the certificate's."""
-        once, families, points = np.ones(1), [*self.straight], [*self.points]
-        size = self.model.program.size
-        for kinked, _, row in self.rows:
-            families.append(LinearFamily(kinked.name, kinked.slack, kinked.bound, (1.0,), (1.0, 1.0), series=row[None]))
-            points.append(Points(once, once))
-        for way in np.eye(size):
-            for sign in (1.0, -1.0):
-                row = np.append(sign * way, -sign * float(way @ self.x))[None]
-                bound = _AROUND * self.size
-                families.append(LinearFamily("box", np.zeros(size), bound, (1.0,), (1.0, 1.0), series=row))
-                points.append(Points(once, once))
-        return tuple(families), points
-
-    def _stated(self, weights: list[Array], points: list[Points], equations: Array) -> Certificate:
-        contacts, unit = [], self.model.unit
-        for family, touching, weights_there in zip(self.straight, points, weights, strict=False):
-            for u, s, weight in zip(touching.u, touching.s, weights_there, strict=True):
-                if weight > 0.0:
-                    k = float(min(max(family.k(np.array([u]))[0], 0.0), 1.0))
-                    contacts.append(Contact(family.name, float(s), k, float(weight) * (unit / family.unit)))
-        for (kinked, point, _), weights_there in zip(self.rows, weights[len(self.straight) :], strict=False):
-            if weights_there[0] > 0.0:
-                contacts.append(Contact(kinked.name, 1.0, 0.0, float(weights_there[0]) * (unit / kinked.unit), point))
-        stated = self.model.program.stated_multipliers(np.asarray(equations))
-        return Certificate.of_leaf(self.model.problem, contacts, stated.tolist())

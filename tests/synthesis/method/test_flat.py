@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from optlaws import BoundaryConditions, Chebyshev, Problem, at_most, synthesize
-from tests.internals.synthesis import Answer, first_points, model_of, optimum_on_points, sharpened, vertex_on_points
+from tests.internals.synthesis import first_points, model_of, vertex_on_points
 from tests.internals.verification import prove
 from tests.synthesis.judge import judge
 
@@ -85,12 +85,3 @@ def test_a_program_without_vertices_has_no_answer() -> None:
     families = tuple(replace(family, bound=1e9) for family in program.families)
     upward = replace(program, families=families, objective=-program.objective)
     assert vertex_on_points(upward, first_points(upward)) is None
-
-
-def test_what_does_not_show_the_binding_rows_is_refused() -> None:
-    program = model_of(Problem(order=2, minimise="J")).program
-    points = first_points(program)
-    answer = optimum_on_points(program, points)
-    spoilt = Answer(answer.x + 0.1, [0.0 * w for w in answer.multipliers], success=True, status="", iterations=0)
-    assert sharpened(program, points, answer) is not None
-    assert sharpened(program, points, spoilt) is None
