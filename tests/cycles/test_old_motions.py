@@ -1,5 +1,6 @@
 """Tables as samples of a motion: noise, specks, crests and joints between samples, moving seams, intervals of peaks."""
 
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
@@ -81,15 +82,17 @@ def test_a_move_that_begins_where_its_noisy_table_does(seed: int) -> None:
 
 def measured(law: str, seed: int, places: np.ndarray, noise: float = 0.005) -> np.ndarray:
     """A cam of 33.42 mm with a rise of 63.9 deg from 30 deg on and a return of 93.6 deg from 180 deg on."""
-    motion = catalogue[law].law if law in catalogue else LAWS_OF_NOBODY[law]
+    motion = LAWS_OF_NOBODY.get(law) or catalogue[law].law
     up, down = (motion(np.clip(k, 0.0, 1.0)) for k in ((places - 30.0) / 63.9, (places - 180.0) / 93.6))
-    return np.round(33.42 * (up - down) + np.random.default_rng(seed).normal(0.0, noise, len(places)), 4)
+    return np.asarray(np.round(33.42 * (up - down) + np.random.default_rng(seed).normal(0.0, noise, len(places)), 4))
 
 
 EVEN = np.linspace(0.0, 360.0, 901)
 UNEVEN = np.unique(np.random.default_rng(1).choice(3600, 1200)) / 10.0
 #: the acceleration of the first one jumps at its ends
-LAWS_OF_NOBODY = {"cubic and quintic": np.polynomial.Polynomial([0, 0, 2.1, 1.6, -4.5, 1.8]), "smooth": smoothstep(6)}
+LAWS_OF_NOBODY: dict[str, Callable[[np.ndarray], np.ndarray]] = {
+    "cubic and quintic": np.polynomial.Polynomial([0, 0, 2.1, 1.6, -4.5, 1.8]), "smooth": smoothstep(6),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("places", [np.delete(EVEN, 300), np.delete(EVEN, [100, 150, 173, 223, 500]), UNEVEN])
@@ -272,7 +275,7 @@ def test_a_rest_that_meets_a_ramp_of_constant_velocity_at_a_corner_stays(begin: 
     lift = BPoly.from_derivatives([100.0, 170.0], [[slope * (100.0 - begin), slope, 0.0], [9.0, 0.0, 0.0]])
     y = np.where(x < 100.0, slope * np.maximum(x - begin, 0.0), lift(np.clip(x, 100.0, 170.0)))
     y -= 9.0 * QUINTIC(np.clip((x - 200.0) / 100.0, 0.0, 1.0))
-    table = split_table(x, np.round(y, 4), digit=1e-4)
+    table = split_table(x, np.round(y, 4).tolist(), digit=1e-4)
     assert [(part.kind, part.line is not None) for part in table.stretches] == [
         ("dwell", True), ("rise", True), ("rise", False), ("dwell", True), ("return", False), ("dwell", True)
     ]  # fmt: skip

@@ -178,7 +178,7 @@ def _scattered_by_places(places: Array, heights: Array) -> Array:
         fast, slow = supposed >= least, supposed < 0.5 * least
         of_slow = float(np.median(sizes[slow])) if slow.any() else 0.0
         shares.append(float(np.sqrt(max(np.median((sizes[fast] ** 2 - of_slow**2) / supposed[fast] ** 2), 0.0))))
-    return min(shares) * shift
+    return np.asarray(min(shares) * shift)
 
 
 def unit_of_rounding(values: Array) -> float:

@@ -98,7 +98,7 @@ class Chain:
         return float(stroke / length**nu * catalogue[self.names[move]].law.peak(nu).value)
 
     def jumps(self, nu: int, *, turns: bool) -> NDArray[np.bool_]:
-        """Whether a derivative jumps at an end of each move; the chain rests beside its ends, or goes on at the other."""
+        """Whether a derivative jumps at an end of each move; it rests beside its own, or goes on at the other."""
         ends, greatest = np.zeros((len(self.names), 2)), 0.0
         for i, name in enumerate(self.names):
             if name:
