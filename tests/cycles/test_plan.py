@@ -52,7 +52,9 @@ CYCLES = {
     "given": Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s"),
     "moves": Cycle(MOVES, speed="90 rpm", limits=LIMITS),
     "free": Cycle([Dwell("0.1 s"), Free("30 mm", "0.2 s"), Free("-30 mm")], period="0.5 s", minimise="rms jerk"),
-    "load": Cycle(MOVES, speed="90 rpm", load={"period": "20 ms", "damping": 0.05}, minimise="load acceleration"),
+    "load": Cycle(
+        MOVES, speed="90 rpm", load={"period": "20 ms", "damping": 0.05}, minimise="load acceleration", degree=5
+    ),
     "rated": Cycle(MOVES, speed="90 rpm", drive={"mass": "2 kg"}, minimise="acceleration", limits={"rms force": "8 N"}),
     "motor": Cycle(
         [Rise("45 deg", "0.25 s"), Dwell()],
