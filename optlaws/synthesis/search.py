@@ -14,6 +14,7 @@ from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.method.exchange import IPOPT, ROUNDS, Method, Outcome, solve
 from optlaws.synthesis.method.stored_structures import stored_guess
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from optlaws.synthesis.limits.drive_limits import DriveLimit
 
 _NEAR_LIMIT = 0.25  # of the limit of a drive: of a law that is so near it no other starts are tried
+_SAME_LAW = 1e-6  # share of an objective within which two starts have led to one law: where none is proven not closer
 _FIRST_MOVE = 4e-3  # how far the place of a peak is moved at first
 _UNDIVIDED_ROUNDING = 1e-13  # an excess that passes unlooked at; a contact at the middle may hide a larger one
 _CLEARLY_MET = 1e-11  # of an objective: what doubles leave of it where they show that it is proven
@@ -73,7 +75,8 @@ class LawSearch:
 
     def answer(self) -> Solution | None:
         """The best law from all starts, with its proof; None if no start gives a law."""
-        self._try_starts()
+        if not self._contradictory():
+            self._try_starts()
         if not self.candidates:
             return None
         plain = best = self._tightened(self.candidates[0])
@@ -105,6 +108,22 @@ class LawSearch:
 
         return failure(self.problem, self.outcomes[0])
 
+    def _contradictory(self) -> bool:
+        """Whether bounds beside formulas that are not convex leave no law: known before any of their starts."""
+        of_formulas = any(isinstance(family, FormulaFamily) for family in self.model.program.families)
+        if self.problem.convex or self.warm is not None or not of_formulas:
+            return False
+        from optlaws.synthesis.method import starts
+        from optlaws.synthesis.proof.infeasible import failure
+
+        if next(starts.points(self.model, self.method), None) is not None:
+            return False
+        none = Outcome(None, 0, 0, "the bounds leave no law")
+        if isinstance(failure(self.problem, none), SolverFailure):
+            return False
+        self.outcomes.append(none)
+        return True
+
     def _try_starts(self, *, stored: bool = True) -> None:
         """A drive's limit, a neighbour's optimum or the default start; where several may be, others until two agree.
 
@@ -121,9 +140,9 @@ class LawSearch:
             return
         from optlaws.synthesis.method import starts
 
-        first = first or last
         for point in starts.points(self.model, self.method):
-            if _agree(first, self._try(None, point)):
+            known = next(iter(self.candidates), None)
+            if _agree(known, self._try(None, point)):
                 return
 
     def _try_drive(self) -> Candidate | None:
@@ -339,7 +358,7 @@ def _agree(first: Candidate | None, last: Candidate | None) -> bool:
     """Whether two starts gave laws with the same objective, as exactly as the search knows it."""
     if first is None or last is None:
         return False
-    return abs(first.objective - last.objective) <= AGREEMENT * abs(first.objective)
+    return abs(first.objective - last.objective) <= _SAME_LAW * abs(first.objective)
 
 
 def attempt(

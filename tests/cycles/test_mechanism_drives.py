@@ -13,6 +13,7 @@ from optlaws import (
     Drive,
     Dwell,
     Follower,
+    InfeasibleProblem,
     InputError,
     Link,
     Loads,
@@ -128,6 +129,37 @@ def test_a_peak_along_the_corners_of_a_table_is_that_of_its_lines(efficiency: fl
     assert best.solutions[0].objective > 0.0
     usual = Cycle([Rise("180 deg", "0.5 s", law="modified sine"), *strokes[1:]], period="3 s", drive=drive)
     assert best.objective < 0.9 * usual.effort.peak_force
+
+
+def _press(jerk: str) -> Cycle:
+    """A press of 35 kg against 4 kN: a turn of its crank in 0.6 s."""
+    force = {"0 deg": "0 N", "280 deg": "0 N", "310 deg": "-4 kN", "340 deg": "-4 kN", "360 deg": "0 N"}
+    bodies = {"crank": "0.3 kg m^2", "slider": "35 kg"}
+    press = slider_crank("60 mm", "250 mm", bodies=bodies, loads=Loads(force, over="input"))
+    turn = [Rise("360 deg", "0.6 s"), Dwell()]
+    limits = {"jerk": jerk}
+    return Cycle(turn, period="0.8 s", advance="360 deg", drive=press, minimise="torque", limits=limits)
+
+
+@pytest.mark.long
+def test_a_press_against_a_table_of_forces_takes_no_more_than_by_a_general_solver() -> None:
+    """SLSQP of the same degree, on thousands of points from several starts, ends with 121.148 N m or more."""
+    best = _press("2020.7 rad/s^3").solve()
+    assert best.objective < 121.148
+    x, v, a = (best(np.linspace(0.0, 0.6, 200001)[:-1], nu) for nu in range(3))
+    press = best.specification.drive
+    assert isinstance(press, Mechanism)
+    torque = np.abs(press.torque(x, v, a)).max()
+    assert torque <= best.objective * (1.0 + 1e-12)
+    assert torque == pytest.approx(best.objective, rel=1e-4)  # of its corner, between samples
+    assert best.peak(3) <= 2020.7 * (1.0 + 1e-9)
+
+
+def test_a_jerk_that_no_law_of_a_press_keeps_is_refused_before_any_start(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("optlaws.synthesis.method.starts.in_phase_plane", lambda *_: pytest.fail("a start"))
+    with pytest.raises(InfeasibleProblem, match=r"the least is the jerk 998\.429 rad/s") as caught:
+        _press("900 rad/s^3").solve()
+    assert caught.value.proof is not None
 
 
 def test_peaks_behind_a_gear_with_losses_are_of_two_torques() -> None:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.arithmetic import NUMPY, Together
-from optlaws.formulas.branches import switches
+from optlaws.formulas.branches import corners, switches
 from optlaws.formulas.convexity import degree, quadratic
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.formulas.slopes import scaled
@@ -30,6 +30,7 @@ from optlaws.tolerances import LEAST_ENERGY, ROUNDOFF
 _FORMULA_RESOLVED = 1e-13  # of the greatest value: what the last coefficients of a formula along a law leave
 
 _PLACES_PER_DEGREE = 2
+_PLACES_OF_ANY = 8  # for every variable, of a formula that is no polynomial
 _SQUARE = 2
 #: roundings of a formula's slope in a row
 _IN_A_ROW = 16
@@ -100,6 +101,40 @@ class CurvedFamily(FormulaFamily):
         """The family of variables in other units; its own unit stays."""
         parts = tuple((name, part.in_units(units, 1.0)) for name, part in self.parts)
         return replace(self, parts=parts, slack=self.slack * units)
+
+    @kept_property
+    def corners(self) -> tuple[Slopes, ...]:
+        """Functions that are 0 where a law passes a corner of a table of straight lines."""
+        return tuple(Slopes(corner, (*self.names, "k")) for corner in corners(self.formula, self.names))
+
+    def at_corners(self, x: Array) -> tuple[Array, Array]:
+        """Residuals and gradients, by corners and signs, of rows whose places move with the corners as the law does.
+
+        -inf where the law passes none; where it passes one several times, of the place with the greatest residual.
+        """
+
+        def heights(u: Array) -> Array:
+            at = self._at(np.array([part.value(x, u) for _, part in self.parts]), u)
+            return np.array([np.broadcast_to(corner.value(at), u.shape) for corner in self.corners])
+
+        u = sign_changes(heights, self.domain, _LOOKS + len(self.slack))
+        values = np.full((len(self.corners), len(self.signs)), -np.inf)
+        rows = np.zeros((*values.shape, len(x)))
+        if not len(u):
+            return values.ravel(), rows.reshape(-1, len(x))
+        columns, (_, turned, _), names, *_ = self._expansion(u[None], np.append(x, 1.0)[None])
+        jets = [self.jet(x, u, np.full(len(u), sign)) for sign in self.signs]
+        slopes = [corner.gradient(names)[:, 0] for corner in self.corners]
+        for place, i in enumerate(np.argmin(np.abs(heights(u)), axis=0)):
+            gradient = slopes[i][:, place]
+            turning = gradient[:-1] @ turned[:, 0, place] - 0.5 * gradient[-1]
+            if turning == 0.0:
+                continue
+            moving = -(gradient[:-1] @ columns[:, 0, 0, place, :-1]) / turning
+            for j, jet in enumerate(jets):
+                if jet.value[place] > values[i, j]:
+                    values[i, j], rows[i, j] = jet.value[place], jet.gradient[place] + jet.slope[place] * moving
+        return values.ravel(), rows.reshape(-1, len(x))
 
     def columns(self, u: Array) -> Array:
         """The parts' columns with two derivatives by u, shape (parts, 3, *places, variables + 1)."""
@@ -246,6 +281,7 @@ class CurvedFamily(FormulaFamily):
         values = [part.value(x, u) for _, part in self.parts]
         return self.slopes.value(self._at(np.array(values), u))
 
+    @last_result
     def stationary(self, x: Array) -> Array:
         """Places among which every stationary point of the domain is, and the edges; beyond it f may have no value."""
         count = None if self.degree is None else self.degree + 1
@@ -280,7 +316,8 @@ class CurvedFamily(FormulaFamily):
         low, high = self.domain
         if low == high:
             return None
-        count = _PLACES_PER_DEGREE * max(len(part.slack) for _, part in self.parts) + 8
+        per_degree = _PLACES_OF_ANY if self.degree is None else _PLACES_PER_DEGREE
+        count = per_degree * max(len(part.slack) for _, part in self.parts) + 8
         within = self._stretches
         local = np.cos(np.linspace(0.0, np.pi, max(count // len(within), 4)))
         return np.unique(np.concatenate([a + (b - a) * (local + 1.0) / 2.0 for a, b in within]))

@@ -7,20 +7,29 @@ from numpy.polynomial.chebyshev import chebpts2
 
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import nodes
+from optlaws.synthesis.families.curved import CurvedFamily
 from optlaws.synthesis.families.family import ConstraintFamily, EvenFamily, Points, Program
 
 _NEARLY_BINDING = 1e-2  # of a right side, or 1: extrema within this of binding join the points that are held
+_CLOSER = 0.25  # of the distance to the nearest point: how far off extrema further points join
+_DENSE = 6  # times as many points beside formulas that are no polynomials
 
 
 def first_points(program: Program) -> list[Points]:
-    """First points of each family, enough for IPOPT's solution to show the contacts."""
+    """First points of each family, enough for the solution on them to show the contacts."""
     # with no peak to hold them, the velocity constraints need points enough by themselves
     share = 0.75 if any(len(family.signs) > 1 for family in program.families) else 1.5
-    return [_points(family, program.size, share) for family in program.families]
+    times = _DENSE if _dense(program) else 1
+    return [_points(family, times * program.size, share) for family in program.families]
+
+
+def _dense(program: Program) -> bool:
+    """Whether it has a formula that is no polynomial: between few points its law is another than on all."""
+    return any(isinstance(family, CurvedFamily) and family.degree is None for family in program.families)
 
 
 def _points(family: ConstraintFamily, size: int, even_share: float) -> Points:
-    """Points of a family, few enough for IPOPT to be quick; the rarer sign of a magnitude has half as many."""
+    """Points of a family, few enough to be quick; the rarer sign of a magnitude has half as many."""
     low, high = family.domain
     if low == high:
         return Points(np.repeat([low], len(family.signs)), np.array(family.signs))
@@ -47,14 +56,22 @@ def _points(family: ConstraintFamily, size: int, even_share: float) -> Points:
 
 def with_extrema(program: Program, points: list[Points], x: Array) -> list[Points]:
     """The points of every family, with the extrema at x that are active or nearly active."""
-    return [_joined(family, grid, x) for family, grid in zip(program.families, points, strict=True)]
+    beside = _dense(program)
+    return [_joined(family, grid, x, beside=beside) for family, grid in zip(program.families, points, strict=True)]
 
 
-def _joined(family: ConstraintFamily, points: Points, x: Array) -> Points:
+def _joined(family: ConstraintFamily, points: Points, x: Array, *, beside: bool) -> Points:
     if family.domain[0] == family.domain[1]:
         return points
     u, s, residual = family.extremes(x)
     near = residual > -_NEARLY_BINDING * max(1.0, abs(family.right_side(x)))
     for sign in family.signs:
         near &= (s != sign) | ~np.isin(u, points.u[points.s == sign])
-    return points.joined(Points(u[near], s[near]))
+    u, s = u[near], s[near]
+    if beside and len(u):
+        # where nothing proves an optimum its contacts are not followed, but enclosed ever closer
+        apart = np.abs(u[:, None] - points.u)
+        apart[(s[:, None] != points.s) | (apart == 0.0)] = np.inf
+        off = _CLOSER * np.where(np.isfinite(nearest := apart.min(axis=1)), nearest, 0.0)
+        u, s = np.clip(np.concatenate([u, u - off, u + off]), *family.domain), np.tile(s, 3)
+    return points.joined(Points(u, s))

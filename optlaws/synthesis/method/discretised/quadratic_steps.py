@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.synthesis.families.curved import IntegralFamily
+from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.answer import QUADRATIC, Answer
 from optlaws.synthesis.method.discretised.conic import INFEASIBLE, conic_optimum, usable
@@ -80,7 +80,9 @@ class _Descent:
     def __init__(self, program: Program, points: list[Points]) -> None:
         self.program, self.points = program, points
         self.pairs = list(zip(program.families, points, strict=True))
-        self.ends = np.cumsum([0, *(len(grid.u) for grid in points)])
+        #: rows of a family at corners of its tables, behind those at its points
+        self.bent = [len(f.corners) * len(f.signs) if isinstance(f, CurvedFamily) else 0 for f in program.families]
+        self.ends = np.cumsum([0, *(len(grid.u) + bent for grid, bent in zip(points, self.bent, strict=True))])
         places = [np.lexsort((grid.u, grid.s)) for grid in points]
         self.order = np.concatenate([begin + each for begin, each in zip(self.ends[:-1], places, strict=True)])
         self.raised = list(self._only_raised())
@@ -152,7 +154,8 @@ class _Descent:
             refused = False
         if last is None:
             return Answer.missing(program, self.points, "no quadratic step", taken)
-        weights = np.split(np.maximum(multipliers, 0.0), self.ends[1:-1])
+        by_family = np.split(np.maximum(multipliers, 0.0), self.ends[1:-1])
+        weights = [each[: len(grid.u)] for each, grid in zip(by_family, self.points, strict=True)]
         # however dear, no step keeps more of the rows near x, and further points only add some
         beyond = (settled or damping > _MOST_DAMPED) and last.left > _LEFT_OVER
         status = INFEASIBLE if beyond else QUADRATIC
@@ -199,6 +202,10 @@ class _Descent:
                     self.tangents.append((jet.gradient[0], beside, int(sum(map(len, values)))))
                 values.append(jet.value)
                 gradients.append(jet.gradient)
+            if isinstance(family, CurvedFamily) and family.corners:
+                value, gradient = family.at_corners(x)
+                values.append(value)
+                gradients.append(gradient)
         del self.tangents[:-_TANGENTS]
         residual, x = np.concatenate(values), x.copy()
         for i, factor, rows_above in self.raised:
@@ -209,18 +216,16 @@ class _Descent:
 
     def _tops(self, values: Array) -> NDArray[np.bool_]:
         """The rows with more than their neighbours on either side, along the places of a family and a side."""
-        order = np.concatenate([self.order, np.arange(len(self.order), len(values))])
-        along = np.concatenate([[-np.inf], values[order], [-np.inf]])
-        tops = np.zeros(len(values), dtype=bool)
-        tops[order] = (along[1:-1] >= along[:-2]) & (along[1:-1] >= along[2:])
+        along = np.concatenate([[-np.inf], values[self.order], [-np.inf]])
+        tops = np.ones(len(values), dtype=bool)
+        tops[self.order] = (along[1:-1] >= along[:-2]) & (along[1:-1] >= along[2:])
         return tops
 
     def _bend(self, x: Array, multipliers: Array) -> Array:
         """The convex part of the Lagrangian's Hessian."""
-        total, begin = np.zeros((len(x), len(x))), 0
-        for family, grid in self.pairs:
+        total = np.zeros((len(x), len(x)))
+        for begin, (family, grid) in zip(self.ends, self.pairs, strict=False):
             weights = multipliers[begin : begin + len(grid.u)]
-            begin += len(grid.u)
             bent = family.hessian(x, grid.u, weights * grid.s) if weights.any() else None
             if bent is not None:
                 total += bent
