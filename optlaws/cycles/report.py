@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache
 from math import inf, pi
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -12,7 +13,7 @@ import numpy as np
 from optlaws.cycles.answers import PROVEN_BOUND, Answers
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
 from optlaws.cycles.placed import Place, limit_rows, overloads
-from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, LimitTaken
+from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, MOTOR, LimitTaken
 from optlaws.cycles.specification.load import is_process, read_load
 from optlaws.cycles.usual_law import usual_cycle
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
@@ -451,11 +452,29 @@ def overload_rows(plan: Solved) -> list[Row]:
     >>> drive = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2", rated_torque="1 N m"), ratio=20)
     >>> table = Cycle([Rise("45 deg", "0.25 s"), Dwell()], period="0.6 s", advance="45 deg", drive=drive)
     >>> overload_rows(table.solve())[0].value
-    'the motor is overloaded (RMS torque 143 %): give the limit motor = true, a stronger motor, another ratio or ...'
+    'the motor is overloaded (RMS torque 143 %), and no law was found that is within its limits: give a stronger ...'
     """
     uses = ", ".join(f"{each.name} {100.0 * each.use:.3g} %" for each in overloads(plan))
-    remedy = "give the limit motor = true, a stronger motor, another ratio or more time"
-    return [Row("remark", f"the motor is overloaded ({uses}): {remedy}")] if uses else []
+    if not uses:
+        return []
+    others = "a stronger motor, another ratio or more time"
+    if _has_law_within_motor(plan.specification):
+        return [Row("remark", f"the motor is overloaded ({uses}): give the limit motor = true, {others}")]
+    return [
+        Row(
+            "remark", f"the motor is overloaded ({uses}), and no law was found that is within its limits: give {others}"
+        )
+    ]
+
+
+@lru_cache(maxsize=16)
+def _has_law_within_motor(cycle: Specification) -> bool:
+    """Whether the limits of the motor leave the cycle a law: a remedy is tried before it is offered."""
+    try:
+        replace(cycle, limits={**cycle.limits, MOTOR: True}).solve()  # type: ignore[attr-defined] # a Cycle
+    except OptlawsError:
+        return False
+    return True
 
 
 def load_work_rows(plan: Solved) -> list[Row]:

@@ -39,6 +39,7 @@ HEADINGS = (
 )  # fmt: skip
 _FEW = 7
 _NOTHING = 1e-9  # of the vibration after the least time: what is rounding
+_LITTLE = 5e-3  # of a value in the least time: a fall to less would be shown as one of 100 %
 _PERCENT = 100.0
 _STROKE = Measured("length", "angle")
 
@@ -236,13 +237,26 @@ def _add_move(page: Page, title: str, each: SoughtMove) -> None:
 
 
 def _in_words(front: TimeFront) -> str:
-    """The saving from a tenth more time, in words."""
+    """The saving from a tenth more time, in words.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Rise
+    >>> limits = {"velocity": "1 m/s", "jerk": "300 m/s^3"}
+    >>> move = Cycle([Rise("100 mm")], period="0.3 s", advance="100 mm", limits=limits)
+    >>> calm = move.front("residual acceleration", follower={"frequency": "12 Hz"}, points=3, longest="0.4 s")
+    >>> _in_words(calm)
+    'The least residual acceleration falls to next to nothing in a time 33 % longer than the least. Every point is ...'
+    """
     first, last = front[0], front[-1]
     later = next((point for point in front if point.duration >= 1.1 * first.duration), last)
-    saved = 1.0 - later.value / first.value if first.value else 0.0
     more = later.duration / first.duration - 1.0
     proven = "Every point is proven" if front.status is Status.OPTIMAL else "The bounds hold for all laws of the space"
-    share = f"falls by {_PERCENT * saved:.0f} % in a time {_PERCENT * more:.0f} % longer than the least"
+    longer = f"in a time {_PERCENT * more:.0f} % longer than the least"
+    if chop(later.value, first.value, _LITTLE) == 0.0:
+        share = f"falls to next to nothing {longer}" if first.value else "is 0 in the least time already"
+    else:
+        share = f"falls by {_PERCENT * (1.0 - later.value / first.value):.0f} % {longer}"
     return f"The least {front.minimise} {share}. {proven}."
 
 

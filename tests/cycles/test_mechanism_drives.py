@@ -27,6 +27,7 @@ from optlaws import (
     catalogue,
     slider_crank,
 )
+from optlaws.cycles.report import overload_rows
 
 RPM = 30.0 / np.pi
 PRESS = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
@@ -160,6 +161,23 @@ def test_a_jerk_that_no_law_of_a_press_keeps_is_refused_before_any_start(monkeyp
     with pytest.raises(InfeasibleProblem, match=r"the least is the jerk 998\.429 rad/s") as caught:
         _press("900 rad/s^3").solve()
     assert caught.value.proof is not None
+
+
+@pytest.mark.parametrize(("rated", "offered"), [("1.35 N m", True), ("1 N m", False)])
+def test_the_limit_of_a_motor_is_offered_where_a_law_is_within_it(rated: str, *, offered: bool) -> None:
+    """No law has less than 1.293 N m rms."""
+    drive = Drive(TABLE, Motor("3e-4 kg m^2", rated_torque=rated), ratio=20)
+    (remark,) = overload_rows(Cycle(INDEXED, **EACH, drive=drive).solve())
+    assert ("give the limit motor = true" in str(remark.value)) is offered
+    assert ("no law was found" in str(remark.value)) is not offered
+
+
+def test_an_energy_of_which_nothing_flows_back_is_said_once() -> None:
+    motor = Motor("3e-4 kg m^2")
+    for regeneration, names in ((0.0, 2), (0.5, 3)):
+        drive = Drive(TABLE, motor, ratio=20, regeneration=regeneration)
+        rows = Cycle(INDEXED, **EACH, drive=drive).sheet.summary()
+        assert sum("energy of a cycle" in row.name for row in rows) == names
 
 
 def test_peaks_behind_a_gear_with_losses_are_of_two_torques() -> None:

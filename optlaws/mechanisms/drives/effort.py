@@ -328,7 +328,7 @@ class DriveSheet(PlainNumbers):
             Row("greatest power, braking", self.braking_power, "W"),
             Row(f"energy of a {self._of}, motoring", self.motoring_energy, "J"),
             Row(f"energy of a {self._of}, braking", self.braking_energy, "J"),
-            Row("energy of a cycle", self.energy, "J"),
+            *([Row("energy of a cycle", self.energy, "J")] if self.energy < self.motoring_energy else []),
             Row("mean power of the brake resistor", self.braking_heat, "W"),
             *([Row("mean power of the copper heat", self.copper_heat, "W")] if self.copper_heat else []),
             Row("inertia of load by motor", self.inertia_match),
