@@ -27,7 +27,7 @@ from optlaws import (
     catalogue,
     slider_crank,
 )
-from optlaws.cycles.report import overload_rows
+from tests.internals.cycles import overload_rows
 
 RPM = 30.0 / np.pi
 PRESS = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})

@@ -20,7 +20,7 @@ from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.cycles.optimisation.optimal import halved
 from optlaws.cycles.optimisation.shared_limits import _SharedLimit as SharedLimit
 from optlaws.cycles.optimisation.span_values import size_of
-from optlaws.cycles.report import CycleReport
+from optlaws.cycles.report import CycleReport, overload_rows
 from optlaws.cycles.specification.drive import read_drive
 from optlaws.cycles.specification.limits import LIMITS_OF_CYCLE, LIMITS_OF_MOVE
 from optlaws.cycles.specification.load import ElasticFollower
