@@ -32,6 +32,7 @@ OWN = {
     "drive": "--stroke '30 deg' --friction '4 N m' --ratio 25 --period '0.8 s'",
     "mechanism": "--crank '80 mm' --rod '0.3 m' --load '1.2 kN'",
     "fastest": "--stroke '90 deg' --velocity '200 rpm' --frequency '20 Hz'",
+    "barrel": "--stroke '40 mm' --rise '70 deg' --roller '9 mm' --outer-radius '70 mm' --depth '10 mm' --cutter '6 mm'",
     "interlock": "--stroke '80 mm' --index '60 mm' --clear '40 mm' --within '0.5 mm' --rise '70 deg'",
     "law": "--velocity '0.62 m/s' --jerk '2431 m/s^3' --order 4",
     "study": "--minimise rms_c --steps 2 --from 1.6",

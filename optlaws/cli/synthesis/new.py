@@ -13,7 +13,7 @@ from optlaws.cli.show import Answer
 from optlaws.errors import InputError
 from optlaws.jobs.starters.starter_numbers import ABOUT, numbers_of
 
-Kind = Literal["cycle", "cam", "drive", "mechanism", "fastest", "interlock", "machine", "law", "study"]
+Kind = Literal["cycle", "cam", "barrel", "drive", "mechanism", "fastest", "interlock", "machine", "law", "study"]
 _ALL = Options(
     {
         name: Option(f"--{name}", str, about, signed=True, group=f"Numbers for {kinds}")
@@ -39,8 +39,9 @@ def _new(
     Parameters
     ----------
     kind
-        What is to be solved: a cycle of an axis, a disc cam, a table with its motor and gear, a mechanism of links, the
-        least time of a move, two axes that must not meet, a move with an elastic load, a single law, or a study.
+        What is to be solved: a cycle of an axis, a disc cam, a barrel cam, a table with its motor and gear, a mechanism
+        of links, the least time of a move, two axes that must not meet, a move with an elastic load, a single law, or a
+        study.
     file
         The file to write, which must not be there yet; KIND.toml unless given.
     """

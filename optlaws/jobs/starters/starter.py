@@ -165,6 +165,12 @@ def _of_cam(answers: Answers) -> Answers:
     return known | (_spring_of_usual(answers) if massive else dict.fromkeys(("stiffness", "preload", "force", "width")))
 
 
+def _of_barrel(answers: Answers) -> Answers:
+    """The jerk of modified sine as a limit unless one is given."""
+    quantity(answers["stroke"], "length", "--stroke")
+    return {"jerk": answers["jerk"] or _usual_of_cycle(answers)["jerk"]}
+
+
 def _spring_of_usual(answers: Answers) -> Answers:
     """A spring with which modified sine stays on the cam, stiffer than the least, with some force to spare."""
     from optlaws.cams.disc import DiscCam
@@ -278,6 +284,10 @@ _KINDS = [
     Starter("cycle", "cycle", _of_cycle, _read_axes, _CYCLE),
     Starter(
         "cam", "run", _of_cam, lambda of, entries, file: of.read(entries, file).cycle, "jobs.cam_entries.CamProblemFile"
+    ),
+    Starter(
+        "barrel", "run", _of_barrel, lambda of, entries, file: of.read(entries, file).cycle,
+        "jobs.cam_entries.BarrelProblemFile", {"barrel": "cams.barrel.Groove"},
     ),
     Starter("drive", "cycle", _of_drive, _read_axes, _CYCLE, _DRIVEN),
     Starter("mechanism", "cycle", _of_mechanism, _read_axes, _CYCLE, _SLIDES),

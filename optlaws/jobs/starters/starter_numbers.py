@@ -16,10 +16,10 @@ _UNTIL = "an angle of the master or a time."
 _LEAST = "unless given the least one that keeps pressure angle and radius of curvature."
 #: by the kinds of their files what numbers may be, what they are unless given, and what they say; None leaves one out
 _TABLES: dict[str, dict[str, tuple[ValueType, str | None, str]]] = {
-    "cycle, cam, drive, fastest, interlock, machine, law": {
-        "stroke": (_STROKE, "35 mm", "How far it moves: a length or an angle, of a cam a length, of a drive an angle."),
+    "cycle, cam, barrel, drive, fastest, interlock, machine, law": {
+        "stroke": (_STROKE, "35 mm", "How far it moves: a length or an angle, of cams a length, of a drive an angle."),
     },
-    "cycle, cam, interlock": {
+    "cycle, cam, barrel, interlock": {
         "rise": (_DURATION, "120 deg", f"How long the rise takes: {_UNTIL}"),
         "dwell": (_DURATION, "90 deg", f"How long it dwells behind the rise: {_UNTIL}"),
         "return": (_DURATION, "100 deg", f"How long the return takes: {_UNTIL}"),
@@ -44,11 +44,16 @@ _TABLES: dict[str, dict[str, tuple[ValueType, str | None, str]]] = {
             "Greatest acceleration; unless given of a cam with a mass that of modified sine, else as the velocity.",
         ),
     },
-    "cycle, cam, drive, mechanism, fastest, law": {
+    "cycle, cam, barrel, drive, mechanism, fastest, law": {
         "jerk": (_JERK, None, "Greatest jerk; unless given that of modified sine, of a least time an example."),
     },
+    "cam, barrel": {"roller": (_LENGTH, "12 mm", "Radius of the roller.")},
+    "barrel": {
+        "outer-radius": (_LENGTH, "60 mm", "Radius of the cylinder."),
+        "depth": (_LENGTH, "12 mm", "Depth of the groove."),
+        "cutter": (_LENGTH, None, "Radius of the cutter."),
+    },
     "cam": {
-        "roller": (_LENGTH, "12 mm", "Radius of the roller."),
         "offset": (Measured("length"), None, "Offset of the follower's line from the shaft; 0 unless given."),
         "pressure-angle": (Measured("angle"), "30 deg", "Greatest pressure angle."),
         "curvature": (Measured("length", least=0.0), "5 mm", "Least radius of curvature."),
@@ -104,6 +109,7 @@ _TABLES: dict[str, dict[str, tuple[ValueType, str | None, str]]] = {
 }
 #: and what they are of the files of some kinds
 _USUAL = {
+    "barrel": {"roller": "8 mm"},
     "drive": {"stroke": "45 deg", "duration": "0.25 s"},
     "mechanism": {"mass": "12 kg", "duration": "0.5 s", "period": "0.7 s"},
     "fastest": {"stroke": "300 mm", "frequency": "13 Hz"},
