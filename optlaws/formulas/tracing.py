@@ -13,7 +13,7 @@ from optlaws.formulas.slopes import added, multiplied, opposite
 from optlaws.formulas.tree import SMOOTH_FUNCTIONS, Call, Exponentiation, Formula, Name, Number, Reciprocal, Sum, number
 from optlaws.numbers import finite, real
 
-_SQUARE, _HALF = Number(2.0), Number(0.5)
+_HALF = Number(0.5)
 
 
 class Traced:

@@ -302,13 +302,12 @@ def best_available(search: LawSearch) -> Solution | None:
 def _of_any_way(search: LawSearch) -> Solution | None:
     """The problem's own answer or, where it is missing, unproven or too good, the answer of an alternative strategy."""
     solution, problem = search.answer(), search.problem
-    if search.method == IPOPT:
+    if search.method == IPOPT or not problem.convex:
         return solution
-    if solution is None or (problem.convex and search.outcomes[0].optimum is None):
-        around = solved_without_interior(search) if problem.convex else None
-        known = [answer for answer in (solution, around) if answer is not None]
+    if solution is None or search.outcomes[0].optimum is None:
+        known = [answer for answer in (solution, solved_without_interior(search)) if answer is not None]
         return min(known, key=lambda answer: abs(answer.gap), default=None)
-    if problem.convex and not _is_met(solution) and _beyond_proof(solution):
+    if not _is_met(solution) and _beyond_proof(solution):
         return solved_without_interior(search) or solution
     return solution
 

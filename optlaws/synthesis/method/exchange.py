@@ -26,7 +26,7 @@ from optlaws.synthesis.method.discretised.conic import INFEASIBLE, SOLVED, of_co
 from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.few_families import binding_few
-from optlaws.synthesis.method.identified import as_answered, optimum_near
+from optlaws.synthesis.method.identified import as_answered, identified
 from optlaws.synthesis.method.units import units_of
 from optlaws.synthesis.method.vanishing import amplitudes, at_apex, nearly_vanished, vanishing
 from optlaws.tolerances import BOUND_FEASIBILITY, EXCESS, STEP_SETTLED
@@ -227,7 +227,7 @@ class _Exchange:
 
     def _near(self, answer: Answer) -> ActiveSet | None:
         """The optimum that the contacts of an answer lead to, where it exceeds nothing, not even beside a contact."""
-        optimum = optimum_near(self.program, self.options.holds, self.points, answer)
+        optimum = polished(self.program, identified(self.program, self.points, answer), self.options.holds)
         return None if optimum is None or _excess(self.program, optimum.x) > BOUND_FEASIBILITY else optimum
 
     def _answers(self) -> Iterator[Answer]:

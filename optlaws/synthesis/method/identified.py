@@ -2,37 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet, Contact
 from optlaws.synthesis.families.family import ConstraintFamily, Points, Program
-from optlaws.synthesis.method.contacts import polished
 from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.tolerances import BARRIER, SAME_PLACE
 
 _SAME_HEIGHT = 1e-9  # what an extremum's residual may be below that of a point on its hill: rounding of a series
 
 
-def optimum_near(
-    program: Program, holds: Callable[[Array], bool] | None, points: list[Points], answer: Answer
-) -> ActiveSet | None:
-    """The optimum that an answer is near to; None where the contacts are not plain yet."""
-    return polished(program, _identified(program, points, answer), holds)
-
-
 def as_answered(points: list[Points], answer: Answer) -> ActiveSet:
     """The answer's own contacts, for optima that are flat somewhere, where no exact active set exists."""
-    return _contacts(points, answer, [answer.weightless * w.max(initial=0.0) for w in answer.multipliers[:-1]])
-
-
-def _contacts(points: list[Points], answer: Answer, least: list[float]) -> ActiveSet:
-    """Points of each family whose multipliers exceed the family's least one, as fixed contacts."""
-    weights, equations = answer.multipliers[:-1], answer.multipliers[-1]
-    active = [np.flatnonzero(w > low) for w, low in zip(weights, least, strict=True)]
+    *weights, equations = answer.multipliers
+    active = [np.flatnonzero(w > answer.weightless * w.max(initial=0.0)) for w in weights]
     return ActiveSet(
         x=answer.x,
         family=np.repeat(np.arange(len(active), dtype=np.intp), [len(rows) for rows in active]),
@@ -44,8 +29,8 @@ def _contacts(points: list[Points], answer: Answer, least: list[float]) -> Activ
     )
 
 
-def _identified(program: Program, points: list[Points], answer: Answer) -> ActiveSet:
-    """Give each point's multiplier to the extremum that its hill leads to; those are the contacts."""
+def identified(program: Program, points: list[Points], answer: Answer) -> ActiveSet:
+    """The contacts near an answer: each point's multiplier is given to the extremum that its hill leads to."""
     contacts: list[Contact] = []
     for i, (family, grid) in enumerate(zip(program.families, points, strict=True)):
         weights = answer.multipliers[i]

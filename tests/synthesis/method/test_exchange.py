@@ -66,7 +66,7 @@ def test_rounds_end_where_what_answers_exceed_falls_no_more(monkeypatch: pytest.
         return replace(answers[-1], x=x + 1e-3 * len(answers) * noise)
 
     monkeypatch.setattr(exchange, "answer_on_points", coarse)
-    monkeypatch.setattr(exchange, "optimum_near", lambda *_: None)
+    monkeypatch.setattr(exchange, "polished", lambda *_: None)
     program = model_of(Problem(B=1.859, order=4, basis=Chebyshev(9), symmetric=False)).program
     outcome = exchange.solve(program)
     assert outcome.status.endswith("falls no more")
@@ -119,7 +119,7 @@ def test_of_thousands_of_rows_few_are_given_to_the_solver_of_a_quadratic_step(mo
 def test_a_start_ends_where_a_law_that_is_known_is_better(monkeypatch: pytest.MonkeyPatch) -> None:
     """After a few rounds more points only raise the objective, so that the start cannot lead to a better law."""
     model = model_of(Problem(order=3, basis=Chebyshev(9), minimise="peak(abs(c) + 3*b^2)", symmetric=False))
-    monkeypatch.setattr(exchange, "optimum_near", lambda *_: None)
+    monkeypatch.setattr(exchange, "polished", lambda *_: None)
     asked: list[float] = []
 
     def worse(x: Any) -> bool:
