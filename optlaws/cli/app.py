@@ -140,7 +140,7 @@ def _plain(error: CycloptsError | InputError) -> str:
 
 
 def _run(arguments: list[str], *, force: bool) -> None:
-    """Run the command; it writes all files or, on an error, none, but a study resumes, and what is unproven stays."""
+    """Run the command; it writes all files or, on an error, none: a study resumes, what is unproven or unread stays."""
     if not arguments or arguments[0] in _HELP:
         application(described=True)(arguments, result_action="return_none")
         return
@@ -149,7 +149,10 @@ def _run(arguments: list[str], *, force: bool) -> None:
     from optlaws.files.writing import all_or_none, forced
 
     resumes = arguments[0] == "study"
-    with forced() if force else nullcontext(), nullcontext() if resumes else all_or_none(but=(NotProven,)):
+    with (
+        forced() if force else nullcontext(),
+        nullcontext() if resumes else all_or_none(but=(NotProven, BrokenPipeError)),
+    ):
         app(arguments, exit_on_error=False, print_error=False, result_action="return_none")
 
 

@@ -1,6 +1,7 @@
 """`optlaws cycle FILE --fastest`: a table, exit codes, results whose proofs are verified, errors that name the axis."""
 
 import json
+import os
 import re
 import subprocess
 import sys
@@ -119,3 +120,17 @@ def test_without_matplotlib_there_are_all_results_but_pictures(tmp_path: Path) -
     drawn = subprocess.run([*command, "--plot", "x.svg"], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert (drawn.returncode, drawn.stdout) == (2, "")
     assert drawn.stderr.splitlines()[-1].startswith("optlaws: drawing needs matplotlib: pip install")
+
+
+def test_a_reader_who_has_seen_enough_leaves_the_results_of_all_files(tmp_path: Path) -> None:
+    """As `| head` does: the pipe is closed before the first line."""
+    text = PRESS.read_text("utf-8")
+    for name in ("a", "b"):
+        (tmp_path / f"{name}.toml").write_text(text, "utf-8")
+    read, write = os.pipe()
+    os.close(read)
+    command = [sys.executable, "-m", "optlaws", "run", "a.toml", "b.toml"]
+    done = subprocess.run(command, cwd=tmp_path, stdout=write, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(write)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert all((tmp_path / "results" / name / "cycle.json").exists() for name in "ab")
