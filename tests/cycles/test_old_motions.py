@@ -80,11 +80,11 @@ def test_a_move_that_begins_where_its_noisy_table_does(seed: int) -> None:
     assert ends == pytest.approx([0.0, 110.0, 200.0, 300.0], abs=0.01)
 
 
-def measured(law: str, seed: int, places: np.ndarray, noise: float = 0.005) -> np.ndarray:
-    """A cam of 33.42 mm with a rise of 63.9 deg from 30 deg on and a return of 93.6 deg from 180 deg on."""
+def measured(law: str, seed: int, places: np.ndarray, up: float = 63.9, down: float = 93.6) -> np.ndarray:
+    """A cam of 33.42 mm that rises from 30 deg on and returns from 180 deg on, with 5 um of noise."""
     motion = LAWS_OF_NOBODY.get(law) or catalogue[law].law
-    up, down = (motion(np.clip(k, 0.0, 1.0)) for k in ((places - 30.0) / 63.9, (places - 180.0) / 93.6))
-    return np.asarray(np.round(33.42 * (up - down) + np.random.default_rng(seed).normal(0.0, noise, len(places)), 4))
+    rise, back = (motion(np.clip(k, 0.0, 1.0)) for k in ((places - 30.0) / up, (places - 180.0) / down))
+    return np.asarray(np.round(33.42 * (rise - back) + np.random.default_rng(seed).normal(0.0, 0.005, len(places)), 4))
 
 
 EVEN = np.linspace(0.0, 360.0, 901)
@@ -104,6 +104,29 @@ def test_rows_left_out_and_uneven_places_hide_no_speck(places: np.ndarray) -> No
     assert table.outliers == (at,)
     assert table.scatter < 0.008
     assert [part.law for part in table.moves] == ["cycloidal"] * 2
+
+
+@pytest.mark.parametrize(("seed", "at"), [(31, 104.8), (44, 109.6), (48, 182.0), (51, 268.8)])
+def test_a_speck_in_the_slow_end_of_a_move_divides_nothing(seed: int, at: float) -> None:
+    heights = measured("cycloidal", seed, EVEN, 80.0, 90.0)
+    row = round(at / 0.4)
+    heights[row] += 0.054
+    table = split_table(EVEN, heights)
+    assert [part.law for part in table.stretches] == [None, "cycloidal", None, "cycloidal", None]
+    assert table.outliers == (row,)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_crests_of_noisy_harmonics_are_no_rests(seed: int) -> None:
+    """A rise of 160 deg and a return of 200 deg, of which the noise hides some degrees at both turns."""
+    law, noise = catalogue["simple harmonic"].law, np.random.default_rng(seed).normal(0.0, 0.005, len(EVEN))
+    lift = 33.42 * (law(np.clip(EVEN / 160.0, 0, 1)) - law(np.clip((EVEN - 160.0) / 200.0, 0, 1)))
+    table = split_table(EVEN, np.round(lift + noise, 4))
+    assert [(part.law, round(part.stop)) for part in table.stretches] == [
+        ("simple harmonic", 160),
+        ("simple harmonic", 360),
+    ]
+    assert table.peaks[1].holds(33.42 * law.constants.C.value / 160.0**2)
 
 
 def test_no_window_of_few_rows_claims_more_than_a_motion_has() -> None:

@@ -50,6 +50,8 @@ _ALIKE = 16.0
 _BENT = 14.0
 #: rows of a window in which a motion is looked at for constant velocity, and the share of rows that one has at least
 _WINDOW, _SHARE = 12, 0.06
+#: of a turn: rests that are shorter are looked at as crests too, and the moves of one without rest begin so far off it
+_SHORT, _BEYOND_TURN = 0.05, 0.1
 #: where the moves beside a rest begin within its run, from -1 to 1, and how long the rest is there at least
 _TAILS = np.linspace(-1.0, -0.1, 7)
 _RESTING = 0.5
@@ -263,6 +265,8 @@ def _line(x: Array, y: Array, room: Array, low: int, high: int) -> tuple[tuple[f
         inner = slice(low + (high - low) // parts, high + 1 - (high - low) // parts)
         place = float(x[inner].mean())
         slope, level = map(float, np.polyfit(x[inner] - place, y[inner], 1))
+        # what rises by no more than noise is at rest as far as anybody can tell
+        slope = 0.0 if 2.0 * abs(slope * (x[high] - x[low])) <= float(room[inner].max()) else slope
         apart = np.abs(y - level - slope * (x - place)) > room
         beyond = np.flatnonzero(apart[:-1] & apart[1:])  # noise alone puts single rows there
         low = int(beyond[beyond < inner.start].max(initial=-2)) + 2
@@ -286,18 +290,21 @@ def motion_of(samples: Samples) -> FittedMotion:
         far = clean.places[rows].tolist()
         clean = clean.without(np.isin(clean.places, far))
         rests = rests_of(clean)
-    advance, seam = _advance(clean), float(clean.places[-1])
-    crests, known = list[float](), dict[object, _Found]()
-    while True:
-        begun, rests = _begun(clean, crests, advance)
-        moves, squares, free, left_out = _moves_between(begun, rests, seam, advance, known)
-        more = _crests(begun, rests, moves)
-        if not more:
-            break
-        crests += more
+    advance = _advance(clean)
+    turn, crests, tried, known = float(np.ptp(clean.places)), list[float](), list[float](), dict[object, _Divided]()
+    doubtful = _doubtful(clean, rests)
+    begun, rests, divided = _divided(clean, doubtful if len(doubtful) == len(rests) else [], advance, known)
+    if not divided[0] or not all(move.name for move in divided[0]):
+        begun, rests, divided = _divided(clean, crests, advance, known)
+        while untried := [middle for middle in _doubtful(begun, rests) if middle not in tried]:
+            tried.append(untried[0])
+            other = _divided(clean, [*crests, untried[0]], advance, known)
+            if _simplicity(clean, other[2]) < _simplicity(clean, divided):
+                crests, (begun, rests, divided) = [*crests, untried[0]], other
+    moves, squares, free, left_out = divided
     far += left_out
-    turn = float(np.ptp(clean.places))
-    moves = [move if move.start + move.stop < 2.0 * seam else move.moved(-turn, -advance) for move in moves]
+    turns = [int((0.5 * (move.start + move.stop) - clean.places[0]) // turn) for move in moves]
+    moves = [move.moved(-k * turn, -k * advance) if k else move for k, move in zip(turns, moves, strict=True)]
     apart = np.abs(samples.places[:, None] - np.array(far)), np.abs(samples.places[:, None] + turn - np.array(far))
     suspects = samples.suspects | (np.minimum(*apart) < _SAME * turn).any(axis=1)
     moves.sort(key=lambda move: move.start)
@@ -305,12 +312,39 @@ def motion_of(samples: Samples) -> FittedMotion:
 
 
 #: the moves of a region, the sum of their squares, the degrees of freedom left, and places far off
-_Found: TypeAlias = tuple[list[FittedMove], float, float, list[float]]
+_Divided: TypeAlias = tuple[list[FittedMove], float, float, list[float]]
+
+
+def _divided(
+    samples: Samples, crests: list[float], advance: float, known: dict[object, _Divided]
+) -> tuple[Samples, list[Line], _Divided]:
+    """The turn as it is begun, its rests and its moves; further rests that are none join the crests."""
+    while True:
+        begun, rests = _begun(samples, crests, advance)
+        divided = _moves_between(begun, rests, float(samples.places[-1]), advance, known)
+        more = _crests(begun, rests, divided[0])
+        if not more:
+            return begun, rests, divided
+        crests += more
+
+
+def _doubtful(samples: Samples, rests: Sequence[Line]) -> list[float]:
+    """The middles of short rests in noise, which may be the crest of one motion."""
+    x, y = samples.places, samples.heights
+    short = [rest for rest in rests if x[rest.last] - x[rest.first] < _SHORT * np.ptp(x)]
+    noisy = [rest for rest in short if np.ptp(y[rest.first : rest.last + 1]) > 0.0]
+    return [float(0.5 * (x[rest.first] + x[rest.last])) for rest in noisy]
+
+
+def _simplicity(samples: Samples, divided: _Divided) -> float:
+    """Schwarz's criterion of the moves of a turn."""
+    rows = len(samples.places)
+    return criterion(divided[1], max(rows - round(divided[2]), 1), rows)
 
 
 def _moves_between(
-    samples: Samples, rests: Sequence[Line], seam: float, advance: float, known: dict[object, _Found]
-) -> _Found:
+    samples: Samples, rests: Sequence[Line], seam: float, advance: float, known: dict[object, _Divided]
+) -> _Divided:
     """The moves between rests; regions that are `known` are as before."""
     moves, squares, free, far = list[FittedMove](), 0.0, 1.0, list[float]()
     for before, after in pairwise([None, *rests, None]):
@@ -367,7 +401,7 @@ def _begun(samples: Samples, crests: Sequence[float], advance: float) -> tuple[S
     if long or not goes_on(samples.places, samples.heights, samples.noise):
         return samples, rests
     # where a motion advances, what looks like a rest may be where it turns
-    lines = [*rests, *(lines_of(samples, 0, last) if advance or not rests else [])]
+    lines = [*rests, *(lines_of(samples, 0, last) if advance else [])]
     if lines:
         longest = max(lines, key=lambda line: line.last - line.first)
         row = (longest.first + longest.last) // 2
@@ -425,24 +459,20 @@ class _Region:
 
     def moves(self, total: list[float]) -> Iterator[FittedMove]:
         """The moves of the region."""
-        x, y = self.x, self.y
         if self.rows <= _FEWEST_MOVING:
             yield from self._few_rows(total)
             return
-        turns = _turning_points(y, 2.0 * NOISE_ROOM * float(self.noise.max()) + 2.0 * self.digit)
-        places = [self.about[0], *(float(x[i]) for i in turns if self.about[0] < x[i] < self.about[1]), self.about[1]]
-        chains = self._chains(places)
-        if chains and self._left_out(chains[0]):
-            x, y, chains = self.x, self.y, self._chains(places)
-        chain = chains[0] if chains else None
-        plain, count = chain is not None and likely(chain.squares, len(x)), len(x)
-        fits = tuple(fits_of(x, y, self.noise, self.ends, self.advance, simple=plain))
-        while fits and not plain and self._left_out_beside(fits[0]):
-            x, y = self.x, self.y
-            fits = tuple(fits_of(x, y, self.noise, self.ends, self.advance))
-        if len(x) < count:  # the laws were compared with rows that are left out by now
+        while True:  # rows that are left out may have looked like turning points, and bent the fits
+            places = self._turns()
             chains = self._chains(places)
+            if chains and self._left_out(chains[0]):
+                continue
             chain = chains[0] if chains else None
+            plain = chain is not None and likely(chain.squares, len(self.x))
+            fits = tuple(fits_of(self.x, self.y, self.noise, self.ends, self.advance, simple=plain))
+            if plain or not fits or not self._left_out_beside(fits[0]):
+                break
+        x, y = self.x, self.y
         at_seam = self._ends_at_seam(fits)
         if at_seam is not None:
             self.ends = at_seam
@@ -463,6 +493,15 @@ class _Region:
         total[0] += chain.squares if chain else fits[0].squares if fits else 0.0
         total[1] += len(x) - (chain.free if chain else fits[0].free if fits else 0)
         yield from self._of_chain(chains, fits) if chain else self._of_fits(fits, places, near)
+
+    def _turns(self) -> list[float]:
+        """Where the region begins, turns and ends; a single row makes no turn."""
+        heights = self.y.copy()
+        heights[1:-1] = np.median(sliding_window_view(self.y, 3), axis=1)
+        room = 2.0 * NOISE_ROOM * float(self.noise.max()) + 2.0 * self.digit
+        turns = min((_turning_points(row, room) for row in (self.y, heights)), key=len)
+        low, high = self.about
+        return [low, *(float(self.x[i]) for i in turns if low < self.x[i] < high), high]
 
     def _few_rows(self, total: list[float]) -> Iterator[FittedMove]:
         """The corner of a region of few rows, or what goes through these."""
@@ -544,8 +583,13 @@ class _Region:
                 heights[side], known[side] = end.line[1], True
         if not np.all(np.abs(np.diff(heights)) > 0.0):
             return []
-        bounds = (float(self.x[0]), float(self.x[-1]))
-        outline = Outline(self.x, self.y, self.noise, np.array(places), heights, known, bounds)
+        bounds, turn = (float(self.x[0]), float(self.x[-1])), 0.0
+        if self.advance is not None:
+            turn = self.about[1] - self.about[0]
+            bounds = bounds[0] - _BEYOND_TURN * turn, bounds[1] + _BEYOND_TURN * turn
+        outline = Outline(
+            self.x, self.y, self.noise, np.array(places), heights, known, bounds, turn, self.advance or 0.0
+        )
         chains = outline.chains()
         if len(places) > 2 and not likely(chains[0].squares, len(self.x)):
             # a rest so short that its rows look like a crest
@@ -561,7 +605,7 @@ class _Region:
         rows, variance = len(self.x), chain.squares / max(len(self.x) - chain.free, 1)
         good = variance * (1.0 + 3.0 * np.sqrt(2.0 / rows))
         simple = [fit for fit in fits if fit.pieces <= SIMPLE and not fit.joints and fit.variance <= good][:1]
-        jumps = [chain.jumps(nu, turns=self.advance is not None) for nu in (1, 2)]
+        jumps = [chain.jumps(nu) for nu in (1, 2)]
         for i, name in enumerate(chain.names):
             if not name:
                 continue
@@ -574,8 +618,9 @@ class _Region:
                 if any(each[i] for each in jumps[: nu - 1]):
                     standard = np.inf
                 most.append(max(standard, most_peak(simple, nu, low, high) if simple else 0.0))
-            if self._goes_on_at_seam(low, high):
-                yield from self._parts((spline_of(chain, i),), [low, self.seam, high], ["", ""], variance, most)
+            at = self._seam_within(low, high)
+            if at is not None:
+                yield from self._parts((spline_of(chain, i),), [low, at, high], ["", ""], variance, most)
                 continue
             first, last = map(float, chain.heights[i : i + 2])
             peaks = [self._interval(nu, low, high, most[nu - 1], variance) for nu in (1, 2, 3)]
@@ -590,16 +635,18 @@ class _Region:
         best = fits[0]
         nodes, laws = [best.start, *(_turn(best, place) for place in places[1:-1]), best.stop], list(near)
         for i, (low, high) in enumerate(pairwise(nodes)):
-            if self._goes_on_at_seam(low, high):
-                nodes.insert(i + 1, self.seam)
+            at = self._seam_within(low, high)
+            if at is not None:
+                nodes.insert(i + 1, at)
                 laws[i : i + 1] = ["", ""]
                 break
         yield from self._parts(fits, nodes, laws, best.variance, most)
 
-    def _goes_on_at_seam(self, low: float, high: float) -> bool:
-        """Whether a move goes on where the table begins again."""
-        room = SHORTEST * float(np.ptp(self.samples.places))
-        return low + room < self.seam < high - room
+    def _seam_within(self, low: float, high: float) -> float | None:
+        """Where the table begins again within a move; None where it does not."""
+        turn = float(np.ptp(self.samples.places))
+        places = (at for at in (self.seam - turn, self.seam) if low + SHORTEST * turn < at < high - SHORTEST * turn)
+        return next(places, None)
 
     def _parts(
         self,

@@ -57,6 +57,8 @@ class Chain:
         The number of parameters that were found.
     deviations
         The standard deviations of places, shape (n + 1,), and of heights behind these, for the noise of the rows.
+    turn, advance
+        Of a chain that goes on at its beginning where it ends: its length, and what it advances by; else 0.
     """
 
     names: tuple[str, ...]
@@ -65,10 +67,13 @@ class Chain:
     squares: float
     free: int
     deviations: Array
+    turn: float = 0.0
+    advance: float = 0.0
 
     def __call__(self, x: Array) -> Array:
         """The positions at places; those at its ends beyond them."""
-        return _positions(self.names, self.places, self.heights, x)
+        turns = np.floor((x - self.places[0]) / self.turn) if self.turn else np.zeros(x.shape)
+        return _positions(self.names, self.places, self.heights, x - turns * self.turn) + turns * self.advance
 
     def rounded(self, x: Array, y: Array, noise: Array, digit: float, bounds: tuple[float, float]) -> Chain:
         """The chain with places as round, and heights, as the rows allow; it ends in the bounds."""
@@ -83,12 +88,15 @@ class Chain:
                     if not name:
                         heights[i + 1] = heights[i]
             inside = np.clip(places, *bounds)
+            if self.turn:
+                inside[-1], heights[-1] = inside[0] + self.turn, heights[0] + self.advance
             if np.all(np.diff(inside) > 0.0):
-                off = _positions(self.names, inside, heights, x) - y
+                tried = replace(self, places=inside, heights=heights)
+                off = tried(x) - y
                 squares = float(((off / noise) ** 2).sum())
                 rounded = 0.0 < float(np.abs(off).max()) <= _ROUNDED * digit
                 if squares <= self.squares + AS_LIKELY * count or rounded or places is self.places:
-                    return replace(self, places=inside, heights=heights, squares=squares)
+                    return replace(tried, squares=squares)
         return self
 
     def peak(self, move: int, nu: int) -> float:
@@ -97,7 +105,7 @@ class Chain:
         stroke = abs(self.heights[move + 1] - self.heights[move])
         return float(stroke / length**nu * catalogue[self.names[move]].law.peak(nu).value)
 
-    def jumps(self, nu: int, *, turns: bool) -> NDArray[np.bool_]:
+    def jumps(self, nu: int) -> NDArray[np.bool_]:
         """Whether a derivative jumps at an end of each move; it rests beside its own, or goes on at the other."""
         ends, greatest = np.zeros((len(self.names), 2)), 0.0
         for i, name in enumerate(self.names):
@@ -106,7 +114,7 @@ class Chain:
                 ends[i] = scale * np.array([catalogue[name].law(k, nu) for k in (0.0, 1.0)])
                 greatest = max(greatest, self.peak(i, nu))
         before, after = np.roll(ends[:, 1], 1), np.roll(ends[:, 0], -1)
-        before[0], after[-1] = (before[0], after[-1]) if turns else (0.0, 0.0)
+        before[0], after[-1] = (before[0], after[-1]) if self.turn else (0.0, 0.0)
         apart = np.maximum(np.abs(ends[:, 0] - before), np.abs(ends[:, 1] - after))
         return np.asarray(apart > _JUMP * greatest)
 
@@ -173,6 +181,8 @@ class Outline:
         Which heights are known, as those of rests are.
     bounds
         Between which places the moves are.
+    turn, advance
+        Of rows of a whole turn, which the moves go round: its length, and what they advance by; else 0.
     """
 
     x: Array
@@ -182,6 +192,8 @@ class Outline:
     heights: Array
     known: NDArray[np.bool_]
     bounds: tuple[float, float]
+    turn: float = 0.0
+    advance: float = 0.0
 
     def chains(self, resting: float = 0.0) -> list[Chain]:
         """Chains of standard laws near the rows, the nearest first; they rest about so long where they turn."""
@@ -217,7 +229,7 @@ class Outline:
         inside = np.flatnonzero((self.x >= ends[0]) & (self.x <= ends[1]))
         some = self.of_rows(inside[:: max(1, len(inside) // _RANKED_BY)])
         heights = self.heights[move : move + 2]
-        single = replace(some, places=ends, heights=heights, known=np.ones(2, dtype=bool))
+        single = replace(some, places=ends, heights=heights, known=np.ones(2, dtype=bool), turn=0.0)
         wide = 0.4 * float(np.ptp(ends))
         single = replace(single, bounds=(ends[0] - wide, ends[1] + wide))
         costs = [(single.fitted((name,), _interpolated, _ROUGH_STEPS).squares, name) for name in catalogue]
@@ -229,12 +241,17 @@ class Outline:
         source = np.arange(count)  # a rest ends at the height of its start
         for i, name in enumerate(names):
             source[i + 1] = source[i + 1] if name else source[i]
+        if self.turn:
+            source[-1] = 0
         free = [i for i in range(count) if source[i] == i and not self.known[i]]
         spread = np.zeros((2 * count, count + len(free)))
         spread[:count, :count] = np.eye(count)
         for column, i in enumerate(free):
             spread[count + np.flatnonzero(source == i), count + column] = 1.0
         ends = np.concatenate([np.clip(self.places, *self.bounds), self.heights[source]])
+        if self.turn:
+            spread[count - 1, 0], ends[count - 1] = 1.0, ends[0] + self.turn
+            spread, ends[-1] = np.delete(spread, count - 1, axis=1), ends[-1] + self.advance
         left, matrix = self._missed(names, laws, ends)
         squares, damping = float(left @ left), _DAMPING
         matrix = matrix @ spread
@@ -244,6 +261,7 @@ class Outline:
             step = np.linalg.lstsq(scaled, -side, rcond=None)[0]
             tried = ends + spread @ step
             tried[:count] = np.clip(tried[:count], *self.bounds)
+            tried[count - 1] = tried[0] + self.turn if self.turn else tried[count - 1]
             if np.all(np.diff(tried[:count]) > _APART * np.ptp(self.places)):
                 new_left, slopes = self._missed(names, laws, tried)
                 new = float(new_left @ new_left)
@@ -260,14 +278,22 @@ class Outline:
                 damping *= 10.0
         variance = max(squares / max(len(left) - len(step), 1), 1.0)
         deviations = np.sqrt(variance * np.maximum(np.diag(spread @ np.linalg.pinv(matrix.T @ matrix) @ spread.T), 0.0))
-        return Chain(names, ends[:count], ends[count:], squares, count + len(free), deviations)
+        free_ends = spread.shape[1]
+        return Chain(names, ends[:count], ends[count:], squares, free_ends, deviations, self.turn, self.advance)
 
     def _missed(self, names: Sequence[str], laws: _Laws, ends: Array) -> tuple[Array, Array]:
         """How far a chain misses the rows, in deviations of their noise, and its derivatives by places and heights."""
         count = len(ends) // 2
         places, heights = ends[:count], ends[count:]
-        edges = np.searchsorted(self.x, places, side="right")
-        y, slopes = np.empty(len(self.x)), np.zeros((len(self.x), 2 * count))
+        at, heights_at, noise = self.x, self.y, self.noise
+        if self.turn:
+            turns = np.floor((at - places[0]) / self.turn)
+            order = np.argsort(at - turns * self.turn, kind="stable")
+            at, heights_at, noise = (
+                row[order] for row in (at - turns * self.turn, heights_at - turns * self.advance, noise)
+            )
+        edges = np.searchsorted(at, places, side="right")
+        y, slopes = np.empty(len(at)), np.zeros((len(at), 2 * count))
         for rows, i in ((slice(None, edges[0]), 0), (slice(edges[-1], None), count - 1)):
             y[rows], slopes[rows, count + i] = heights[i], 1.0
         for i, name in enumerate(names):
@@ -276,12 +302,12 @@ class Outline:
                 y[rows], slopes[rows, count + i] = heights[i], 1.0
                 continue
             length, stroke = places[i + 1] - places[i], heights[i + 1] - heights[i]
-            u = np.minimum((self.x[rows] - places[i]) / length, 1.0)
+            u = np.minimum((at[rows] - places[i]) / length, 1.0)
             a, b = laws(name, u)
             y[rows] = heights[i] + stroke * a
             slopes[rows, i], slopes[rows, i + 1] = -stroke / length * b * (1.0 - u), -stroke / length * b * u
             slopes[rows, count + i], slopes[rows, count + i + 1] = 1.0 - a, a
-        return (y - self.y) / self.noise, slopes / self.noise[:, None]
+        return (y - heights_at) / noise, slopes / noise[:, None]
 
 
 def _woven(names: Sequence[str], rests: Sequence[str]) -> Iterator[str]:
