@@ -66,7 +66,7 @@ from optlaws.synthesis.program import writer
 from optlaws.synthesis.program.evaluation import evaluate, shortfalls
 from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model_of, relaxed
 from optlaws.synthesis.proof import make
-from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, model_of_leaf, weighted_rows
+from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, model_of_leaf
 from optlaws.synthesis.proof.duality import lines_of, row_of, sum_of_rows, summed
 from optlaws.synthesis.proof.infeasible import failure
 from optlaws.synthesis.proof.nodes import PlaceRange

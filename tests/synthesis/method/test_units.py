@@ -33,12 +33,6 @@ def kept(solution: Solution, B: float) -> None:
     assert Judged(law).worth(solution.problem.objective) == pytest.approx(solution.objective, rel=1e-9)
 
 
-def assert_settling(ratios: list[float]) -> None:
-    """A stroke of 1 is nothing to great laws: what it changes falls with B."""
-    for (before, after), B in zip(pairwise(ratios), GREAT, strict=False):
-        assert abs(after / before - 1.0) < 20.0 / B
-
-
 @pytest.mark.sample(4)
 @pytest.mark.parametrize("place", range(len(asked(1e4))))
 def test_great_velocities_are_proven_to_nine_digits(place: int) -> None:
@@ -52,6 +46,7 @@ def test_great_velocities_are_proven_to_nine_digits(place: int) -> None:
         assert bound is not None
         assert abs(float(bound) / solution.objective - 1.0) < 1e-9
         ratios.append(solution.objective / B)
+    # a stroke of 1 is nothing to great laws: what it changes falls with B
     assert all(
         abs(after / before - 1.0) < 20.0 / B for (before, after), B in zip(pairwise(ratios), GREAT, strict=False)
     )
