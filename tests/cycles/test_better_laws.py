@@ -150,3 +150,22 @@ def test_a_cycle_of_least_acceleration_has_no_better_one_after_its_export(name: 
     assert all(part.solution is None for part in new.moves)
     at = np.linspace(0.0, 360.0, 721)
     assert old.at(at) == pytest.approx(1e3 * np.asarray(cycle.at_angle(at % 360.0)), abs=1e-3)
+
+
+def test_corners_of_a_constant_velocity_have_a_remedy() -> None:
+    """Parabolas about them, within the tolerance, which the words give with their acceleration."""
+    x = np.arange(0.0, 360.1, 0.5)
+    table = split_table(
+        x, np.round(0.26 * (np.clip(x, 40.0, 120.0) - 40.0) - 20.8 * QUINTIC(np.clip((x - 200.0) / 100.0, 0, 1)), 4)
+    )
+    better = table.bettered(0.05)
+    move = better.moves[0]
+    wide, off = move.rounding, move.sufficient_tolerance
+    assert (wide, off) == pytest.approx((8.0 * 0.05 / 0.26, 0.05), rel=1e-4)
+    at = np.linspace(-0.5 * wide, 0.5 * wide, 1001)
+    parabola = 0.13 / wide * (at + 0.5 * wide) ** 2
+    assert np.abs(parabola - 0.26 * np.maximum(at, 0.0)).max() == pytest.approx(off, rel=1e-4)
+    words = better.reason_in_words(move)
+    assert words.endswith(
+        "a parabola over 1.54 deg about each is within 0.05 mm and has an acceleration of 0.169 mm/deg²"
+    )

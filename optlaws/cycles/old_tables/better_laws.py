@@ -29,6 +29,7 @@ Ends = tuple[tuple[float, ...], tuple[float, ...]]
 _JERK = 1.2  # of an old law's greatest jerk: what a law of less acceleration in its place may have
 _RAMP = 0.1  # of a move: over so much of it a jump of the acceleration at its end is taken
 _SAME = 1e-6  # of a greatest velocity or acceleration: what differs by less is the same
+_JUMP = 1e-3  # of a velocity at an end: a jump by less is no corner
 _LEAST_GAIN = 1e-3  # of an acceleration: for less no law is replaced, as the rounding of a table may show so much
 _SETTLED = 1e-9  # of a tolerance: a law that is no farther beyond it is so by rounding alone
 _PATIENT = 5  # rounds after which it may be ten times as far in each
@@ -141,7 +142,8 @@ def _better(
     old, share = law_of_move(part), room / abs(part.stroke)
     what = nothing_to_better(old)
     if what:
-        return replace(part, reason=f"it is {what}")
+        wide, off = _rounded_corners(stretches, number, room)
+        return replace(part, reason=f"it is {what}", sufficient_tolerance=off, rounding=wide)
     ends = _ends(stretches, known, number, order, as_before=as_before)
     if any(abs(value) >= old.constants.C.value * (1.0 - _LEAST_GAIN) for state in ends for value in state[2:3]):
         return replace(part, reason="its acceleration is greatest where it goes on into the next move")
@@ -155,6 +157,23 @@ def _better(
     if solution is not None:
         return replace(part, law=solution.law, solution=solution, peaks=())
     return replace(part, reason=why, sufficient_tolerance=abs(part.stroke) * _enough(old, share, order, degree, ends))
+
+
+def _rounded_corners(stretches: Sequence[Stretch], number: int, room: float) -> tuple[float, float]:
+    """Over how much of the master parabolas round the corners at the ends of a move, and how far off; 0 without such.
+
+    A velocity that changes by v evenly over a width w is at most v w / 8 off the corner.
+    """
+    around = [stretches[i % len(stretches)] for i in (number - 1, number, number + 1)]
+    slopes = []
+    for part in around:
+        states = [(0.0, 0.0)] * 2 if part.law is None else law_of_move(part).boundary_values(2)
+        slopes.append([part.stroke / (part.stop - part.start) * state[1] for state in states])
+    jump = max(abs(slopes[1][0] - slopes[0][1]), abs(slopes[2][0] - slopes[1][1]))
+    if jump <= _JUMP * max(map(abs, slopes[1])):
+        return 0.0, 0.0
+    wide = min(8.0 * room / jump, *(part.stop - part.start for part in around))
+    return wide, jump * wide / 8.0
 
 
 def nothing_to_better(old: MotionLaw) -> str:

@@ -49,6 +49,9 @@ class Stretch:
     reason, sufficient_tolerance
         Of a move that keeps its law where a better one was sought: why, and a tolerance within which one exists; 0
         where none was found.
+    rounding
+        Of a move that keeps its law between corners: over how much of the master parabolas about these, within the
+        sufficient tolerance, take them away; else 0.
     peaks
         Between which values the peaks of velocity, acceleration and jerk are by the table; empty for a dwell, and for a
         law in place of that of the table.
@@ -65,6 +68,7 @@ class Stretch:
     solution: Solution | None = None
     reason: str = ""
     sufficient_tolerance: float = 0.0
+    rounding: float = 0.0
     peaks: tuple[PeakInterval, ...] = ()
 
     @property

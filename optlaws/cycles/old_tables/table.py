@@ -366,6 +366,16 @@ class OldTable:
         if not part.sufficient_tolerance:
             return part.reason
         enough = Amount(part.sufficient_tolerance, self.unit, 3)
+        if part.rounding:
+            wide = Amount(part.rounding, self.master, 3)
+            bend = Amount(8.0 * part.sufficient_tolerance / part.rounding**2, self.unit_of(2), 3)
+            return sentence(
+                "{}, between corners; a parabola over {} about each is within {} and has an acceleration of {}",
+                part.reason,
+                wide,
+                enough,
+                bend,
+            )
         return sentence("{}; within {} one has less acceleration", part.reason, enough)
 
     def law_in_words(self, part: Stretch) -> str:
