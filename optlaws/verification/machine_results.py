@@ -60,6 +60,10 @@ def cam(data: Data) -> Verification:
                 proven = _objective_of_laws(result.plan, list(known.values()), stated.get(name) or {}, weaker)
                 of_bounds += [replace(claim, name=f"{name}.{claim.name}") for claim in proven]
         claims += _numbers(stated, result.data, of_bounds)
+        entries = {*data, *stated}
+        for name in (name for name, value in result.data.items() if value is not None and name not in entries):
+            detail = "the file does not state it, though the page of such a cam does"
+            claims.append(Claim(name, proven=False, detail=detail, checked=False))
     except OptlawsError as error:
         claims = [_unread("the cam", error, known)]
     every = [claim for place, each in known.items() for claim in every_claim(each, f"{place}: ")]

@@ -84,6 +84,12 @@ def test_a_cam_with_the_names_of_earlier_files_is_proven() -> None:
     assert not verify(changed(data, ("bulging_radius", "low"), 0.9 * data["bulging_radius"]["low"])).proven
 
 
+def test_what_a_cam_does_not_state_though_its_page_does_is_named() -> None:
+    data = {name: value for name, value in stored("cam_pair").items() if name != "usual_law"}
+    missing = [claim for claim in verify(data).unchecked if "does not state" in claim.detail]
+    assert [claim.name for claim in missing] == ["usual_law"]
+
+
 def test_entries_of_a_cam_that_are_changed_are_found() -> None:
     data = stored("cam_best_laws")
     for path, value in (
