@@ -99,8 +99,9 @@ def overstated(tampered: Data, true: Verification, known: Verification | None = 
         "power_certificate.bound": (tampered.get("power_certificate") or {}).get("bound"),
     }
     wrong += [f"{name} {value!r}" for name, value in stated.items() if value is not None and value > best]
-    if "objective" in tampered and not low - 1e-9 * high <= tampered["objective"] <= high * (1.0 + 1e-9):
-        wrong.append(f"objective {tampered['objective']!r}")
+    objective = tampered.get("objective")
+    if objective is not None and not low - 1e-9 * high <= objective <= high * (1.0 + 1e-9):
+        wrong.append(f"objective {objective!r}")
     gap = tampered.get("gap")
     if gap is not None and true.gap is not None and gap < true.gap - 2e-8:
         wrong.append(f"gap {gap!r}")
