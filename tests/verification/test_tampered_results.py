@@ -3,6 +3,7 @@
 import json
 from collections.abc import Iterator
 from functools import cache
+from itertools import pairwise
 from pathlib import Path as File
 from typing import Any
 
@@ -109,8 +110,9 @@ def is_above(one: Verification, true: Verification) -> bool:
 
 
 def words(verification: Verification) -> set[str]:
-    """The words that name what is not checked."""
-    return {word for claim in (*verification.recomputed, *verification.unchecked) for word in claim.name.split()}
+    """The words, and pairs of words as keys have them, that name what is not checked."""
+    several = [claim.name.split() for claim in (*verification.recomputed, *verification.unchecked)]
+    return {word for each in several for word in (*each, *map("_".join, pairwise(each)))}
 
 
 @pytest.mark.sample(3)
