@@ -23,6 +23,8 @@ from optlaws.numerics.roots import bisect
 NOISE_ROOM = 4.0
 #: rows of a rest at least
 _FEWEST = 8
+#: of all rows: in noise, fewer do not tell a rest from the slow beginning of a move
+_SHORTEST_REST = 1.0 / 200.0
 #: rows between two rests at one level that are so few are far off it, and no motion
 _FEW_BETWEEN = 3
 #: steps within which a move is known to be, and no more of it
@@ -136,11 +138,11 @@ def rests_of(samples: Samples) -> list[Line]:
     size = float(samples.noise.max())
     room = NOISE_ROOM * size + 0.5 * samples.digit
     runs = sorted(_level_runs(y, 2.0 * room), key=lambda run: run[0] - run[1])
-    taken = np.zeros(len(y), dtype=bool)
+    taken, fewest = np.zeros(len(y), dtype=bool), max(_FEWEST, round(_SHORTEST_REST * len(y)))
     lines = []
     for first, last in runs:
         exact = last - first + 1 >= _EXACT and np.ptp(y[first : last + 1]) == 0.0
-        if (last - first + 1 < _FEWEST and not exact) or taken[first : last + 1].any():
+        if (last - first + 1 < fewest and not exact) or taken[first : last + 1].any():
             continue
         taken[first : last + 1] = True
         if _is_rest(
