@@ -24,6 +24,8 @@ UNRESOLVED = 9.0
 _PIECES = (1, 2, 3, 4, 5, 6, 8, 10, 13, 17, 22, 29, 38, 50)
 #: rows for each coefficient at least
 _ROWS_EACH = 1.6
+#: rows more than coefficients at least: a spline through all of them may be anything between
+_LEFT = 2
 #: rows in searches for joints, which need not be all
 _SEARCHED = 160
 #: numbers of pieces between which a joint is looked for
@@ -41,6 +43,8 @@ _EVIDENT = 12.0
 _CANDIDATES = 160
 #: with as few pieces no joint is looked for: the motion is smooth
 _SIMPLE = 4
+#: where the end of a rest is looked for first, from its move on, as shares of where it may be
+_LOOKS = np.array([0.0, *2.0 ** np.arange(-8.0, 1.0)])
 #: of a step: how near the ends of rests are looked for, in the end and in searches
 _FINE, _ROUGH = 0.02, 0.2
 #: degrees of one polynomial for a whole move, and how many derivatives it may have in common with the rests beside it
@@ -251,7 +255,7 @@ class _Fitter:
         turned, coefficients = self._known(knots)
         free = turned.shape[1]
         parameters = free + len(joints) + sum(end.line is not None for end in self.ends)
-        if int(inside.sum()) < free:
+        if int(inside.sum()) < free + _LEFT:
             return np.inf, parameters, None
         few = _condensed(knots, self.x[inside], self.y[inside], 1.0 / self.noise[inside], self.degree)
         left = few[:, -1:] - few[:, :-1] @ coefficients[:, None]
@@ -280,13 +284,17 @@ class _Fitter:
         step = float(np.median(np.diff(self.x)))
         sides = [side for side, end in enumerate(self.ends) if end.line is not None]
         if width is None:
-            # a coarse look over all of the rests' ends first
+            # a coarse look over all of the rests' ends first, the nearer to the move the closer
+            width = 0.0
             for side in sides:
                 end = self.ends[side]
-                tried = np.linspace(end.low, end.high, 9)
-                squares = [self._with(places, side, at, joints, pieces) for at in tried]
-                places[side] = float(tried[int(np.argmin(squares))])
-            width = max([(self.ends[side].high - self.ends[side].low) / 8.0 for side in sides], default=0.0)
+                near, far = (end.low, end.high) if side == 1 else (end.high, end.low)
+                tried = near + (far - near) * _LOOKS
+                squares = [self._with(places, side, float(at), joints, pieces) for at in tried]
+                least = int(np.argmin(squares))
+                places[side] = float(tried[least])
+                beside = tried[[max(least - 1, 0), min(least + 1, len(tried) - 1)]]
+                width = max(width, 0.5 * float(np.ptp(beside)))
         wide = width
         middle = self.solved(places[0], places[1], joints, pieces)[0]
         while sides and wide > self.fine * step:
