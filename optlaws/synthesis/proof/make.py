@@ -211,7 +211,8 @@ def spread(model: Model, proof: Certificate) -> Iterator[Certificate]:
 def _light(model: Model) -> Iterator[Contact]:
     """Contacts at the first points of affine rows, and of cones in four directions, which add up to nothing."""
     for family, points in zip(model.program.families, first_points(model.program), strict=True):
-        if isinstance(family, LinearFamily | ConeFamily):
+        # how far a law may be within all constraints is no constraint of the problem
+        if isinstance(family, LinearFamily | ConeFamily) and family.name != RowName.TO_SPARE:
             directions = _FOUR_WAYS if isinstance(family, ConeFamily) else ((),)
             for k, sign in zip(family.k(points.u).tolist(), points.s.tolist(), strict=True):
                 yield from (Contact(family.name, sign, min(max(k, 0.0), 1.0), 1.0, way) for way in directions)
