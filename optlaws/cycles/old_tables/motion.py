@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -14,23 +13,16 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from optlaws.cycles.old_tables.fitting import SIMPLE, UNRESOLVED, CurveFit, End, fits_of, interpolation, likely
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
-from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on, window_polynomials
+from optlaws.cycles.old_tables.rests_and_lines import FEWEST, NOISE_ROOM, Line, lines_of, rests_of
+from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on
 from optlaws.cycles.old_tables.standard import Chain, Outline, criterion, spline_of
 from optlaws.numbers import Array
 from optlaws.numerics.roots import bisect
 
-#: standard deviations by which rows are off a motion at most
-NOISE_ROOM = 4.0
-#: rows of a rest at least
-_FEWEST = 8
-#: of all rows: in noise, fewer do not tell a rest from the slow beginning of a move
-_SHORTEST_REST = 1.0 / 200.0
 #: rows between two rests at one level that are so few are far off it, and no motion
 _FEW_BETWEEN = 3
 #: steps within which a move is known to be, and no more of it
 _FEWEST_MOVING = 4
-#: and of one whose rows are all equal
-_EXACT = 4
 #: by how much the variance about a standard law may exceed that about a spline: of F, one in a thousand
 _UNLIKELY = 1e-3
 _UNCERTAIN = 3.0
@@ -48,31 +40,8 @@ _FAR, _FEW = 6.0, 0.04
 _ALONE = 0.5
 #: standard laws whose sums of squares differ by less are told apart by no table
 _ALIKE = 16.0
-#: sum of squares that a polynomial of degree 4 takes off noise by chance
-_BENT = 14.0
-#: rows of a window in which a motion is looked at for constant velocity, and the share of rows that one has at least
-_WINDOW, _SHARE = 12, 0.06
 #: of a turn: rests that are shorter are looked at as crests too, and the moves of one without rest begin so far off it
 _SHORT, _BEYOND_TURN = 0.05, 0.1
-#: where the moves beside a rest begin within its run, from -1 to 1, and how long the rest is there at least
-_TAILS = np.linspace(-1.0, -0.1, 7)
-_RESTING = 0.5
-
-
-@dataclass(frozen=True)
-class Line:
-    """Rows of constant velocity or at rest, from the first to the last one, with a position and its place."""
-
-    first: int
-    last: int
-    level: float
-    place: float = 0.0
-    slope: float = 0.0
-
-    @property
-    def values(self) -> tuple[float, float, float]:
-        """What an end of a curve takes."""
-        return self.place, self.level, self.slope
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,150 +99,6 @@ class FittedMotion:
     samples: Samples  #: whose suspects are the points far off the motion
     moves: tuple[FittedMove, ...]
     variance: float  #: about it, over that of the noise by differences
-
-
-def rests_of(samples: Samples) -> list[Line]:
-    """Runs of rows that rest as far as the noise tells, the longest ones first taken, in order."""
-    x, y = samples.places, samples.heights
-    size = float(samples.noise.max())
-    room = NOISE_ROOM * size + 0.5 * samples.digit
-    runs = sorted(_level_runs(y, 2.0 * room), key=lambda run: run[0] - run[1])
-    taken, fewest = np.zeros(len(y), dtype=bool), max(_FEWEST, round(_SHORTEST_REST * len(y)))
-    lines = []
-    for first, last in runs:
-        exact = last - first + 1 >= _EXACT and np.ptp(y[first : last + 1]) == 0.0
-        if (last - first + 1 < fewest and not exact) or taken[first : last + 1].any():
-            continue
-        taken[first : last + 1] = True
-        if _is_rest(
-            x[first : last + 1], y[first : last + 1], float(samples.noise[first : last + 1].max()), samples.digit
-        ):
-            quarter = (last - first + 1) // 4
-            inner = y[first + quarter : last + 1 - quarter]
-            lines.append(Line(first, last, float(np.mean(inner))))
-    return _levelled(sorted(lines, key=lambda rest: rest.first), size)
-
-
-def _level_runs(y: Array, most: float) -> Iterator[tuple[int, int]]:
-    """For each row the longest run from it on whose positions differ by no more."""
-    greatest: deque[int] = deque()
-    least: deque[int] = deque()
-    first, before = 0, -1
-    for last in range(len(y)):
-        while greatest and y[greatest[-1]] <= y[last]:
-            greatest.pop()
-        while least and y[least[-1]] >= y[last]:
-            least.pop()
-        greatest.append(last)
-        least.append(last)
-        while y[greatest[0]] - y[least[0]] > most:
-            if last - 1 > before:
-                yield first, last - 1
-                before = last - 1
-            first += 1
-            while greatest[0] < first:
-                greatest.popleft()
-            while least[0] < first:
-                least.popleft()
-    yield first, len(y) - 1
-
-
-def _is_rest(x: Array, y: Array, noise: float, digit: float) -> bool:
-    """Whether a run rests, and is no crest of a motion: crests are bent all over."""
-    count = len(x)
-    if np.ptp(y) == 0.0:
-        return True
-    u = 2.0 * (x - 0.5 * (x[0] + x[-1])) / (x[-1] - x[0])
-    size = max(noise, digit / np.sqrt(12.0))
-
-    def squares(columns: Array) -> float:
-        left = y - columns @ np.linalg.lstsq(columns, y, rcond=None)[0]
-        return float(left @ left / size**2)
-
-    ones = np.ones((count, 1))
-    flat, bent = squares(ones), squares(u[:, None] ** np.arange(5))
-    if flat - bent <= _BENT:
-        return True
-    tails = min(
-        squares(np.column_stack([ones, np.maximum(low - u, 0.0) ** power, np.maximum(u - high, 0.0) ** power]))
-        for power in (2, 3)
-        for low in _TAILS
-        for high in -_TAILS
-        if high - low >= _RESTING
-    )
-    return tails < bent + 3.0
-
-
-def _levelled(rests: Sequence[Line], noise: float) -> list[Line]:
-    """Rests at levels that the noise does not tell apart, at their common mean."""
-    groups: list[list[Line]] = []
-    for rest in sorted(rests, key=lambda rest: rest.level):
-        last = groups[-1][-1] if groups else None
-        if last is not None:
-            counts = [max((each.last - each.first) // 2, 1) for each in (last, rest)]
-            if rest.level - last.level <= NOISE_ROOM * noise * np.sqrt(sum(1.0 / count for count in counts)):
-                groups[-1].append(rest)
-                continue
-        groups.append([rest])
-    levels = {}
-    for group in groups:
-        weights = [rest.last - rest.first + 1 for rest in group]
-        level = float(np.average([rest.level for rest in group], weights=weights))
-        for rest in group:
-            levels[rest] = level
-    return [Line(rest.first, rest.last, levels[rest]) for rest in rests]
-
-
-def lines_of(samples: Samples, first: int, last: int) -> list[Line]:
-    """Long runs of rows of constant velocity between two rows."""
-    x, y, noise = (row[first : last + 1] for row in (samples.places, samples.heights, samples.noise))
-    count = len(x)
-    rows = max(_WINDOW, count // 25)
-    if count < 2 * rows:
-        return []
-    size = np.maximum(sliding_window_view(noise, rows), samples.digit / np.sqrt(12.0)).max(axis=1)
-    bent = window_polynomials(sliding_window_view(x, rows), 3)[:, :, 2:]
-    bends = np.einsum("ijk,ij->ik", bent, sliding_window_view(y, rows))
-    straight = (bends**2).sum(axis=1) <= _BENT * size**2
-    lines = list[Line]()
-    windows = np.flatnonzero(straight)
-    # noise alone makes few windows beside each other bent
-    for run in np.split(windows, np.flatnonzero(np.diff(windows) > rows // 2) + 1) if windows.size else ():
-        low, high = int(run[0]), int(run[-1]) + rows - 1
-        trim = max(1, (high - low) // 20)
-        while high - low + 1 >= max(_WINDOW, count * _SHARE):
-            if _is_straight(x[low : high + 1], y[low : high + 1], float(size.max())):
-                line, low, high = _line(x, y, NOISE_ROOM * noise + 0.5 * samples.digit, low, high)
-                if not lines or first + low > lines[-1].last:
-                    lines.append(Line(first + low, first + high, *line))
-                break
-            low, high = low + trim, high - trim
-    return lines
-
-
-def _is_straight(x: Array, y: Array, noise: float) -> bool:
-    """Whether rows are on a line as far as the noise tells."""
-    u = 2.0 * (x - x[0]) / (x[-1] - x[0]) - 1.0
-    left = []
-    for degree in (1, 4):
-        fit = np.polynomial.Polynomial.fit(u, y, degree, domain=[-1.0, 1.0])
-        left.append(float(((y - fit(u)) ** 2).sum()))
-    return left[0] - left[1] <= 1.5 * _BENT * noise**2
-
-
-def _line(x: Array, y: Array, room: Array, low: int, high: int) -> tuple[tuple[float, float, float], int, int]:
-    """The line of straight rows, with its level at a place and its slope, and the rows from and to which it goes on."""
-    for parts in (4, 8):  # the moves beside it may reach into its ends
-        inner = slice(low + (high - low) // parts, high + 1 - (high - low) // parts)
-        place = float(x[inner].mean())
-        slope, level = map(float, np.polyfit(x[inner] - place, y[inner], 1))
-        # what rises by no more than noise is at rest as far as anybody can tell
-        slope = 0.0 if 2.0 * abs(slope * (x[high] - x[low])) <= float(room[inner].max()) else slope
-        apart = np.abs(y - level - slope * (x - place)) > room
-        beyond = np.flatnonzero(apart[:-1] & apart[1:])  # noise alone puts single rows there
-        low = int(beyond[beyond < inner.start].max(initial=-2)) + 2
-        high = int(beyond[beyond >= inner.stop].min(initial=len(x))) - 1
-    return (level, place, slope), low, high
 
 
 def motion_of(samples: Samples) -> FittedMotion:
@@ -399,7 +224,7 @@ def _begun(samples: Samples, crests: Sequence[float], advance: float) -> tuple[S
     rests = rests_in(samples)
     # a short one at an end of the table may be the slow begin of a move, or go on at the other end
     whole = rests and rests[0].first == 0 and rests[-1].last == last
-    long = whole and min(rests[0].last, last - rests[-1].first) >= 2 * _FEWEST
+    long = whole and min(rests[0].last, last - rests[-1].first) >= 2 * FEWEST
     if long or not goes_on(samples.places, samples.heights, samples.noise):
         return samples, rests
     # where a motion advances, what looks like a rest may be where it turns
@@ -595,7 +420,7 @@ class _Region:
         chains = outline.chains()
         if len(places) > 2 and not likely(chains[0].squares, len(self.x)):
             # a rest so short that its rows look like a crest
-            long = float(np.median(np.diff(self.x))) * _FEWEST
+            long = float(np.median(np.diff(self.x))) * FEWEST
             resting = outline.chains(min(long, 0.2 * float(np.diff(places).min())))
             if resting[0].squares < chains[0].squares - _ALIKE:
                 chains = resting

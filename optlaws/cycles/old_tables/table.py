@@ -23,9 +23,10 @@ from optlaws.cycles.old_tables.frame import (
     whole_turn,
     with_rests,
 )
-from optlaws.cycles.old_tables.motion import NOISE_ROOM, motion_of
+from optlaws.cycles.old_tables.motion import motion_of
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.reading import points_in
+from optlaws.cycles.old_tables.rests_and_lines import NOISE_ROOM
 from optlaws.cycles.old_tables.samples import samples_of
 from optlaws.cycles.old_tables.stated_functions import stretches_of_pieces
 from optlaws.cycles.old_tables.stretches import Stretch, corners_of, law_of_move, position, seam_of, stretches_of
