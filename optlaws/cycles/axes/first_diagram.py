@@ -30,7 +30,7 @@ def first_diagram(
     Raises
     ------
     InputError
-        If a move has neither a duration nor limits, and no period is given of which it could take a share.
+        If a move has neither a duration nor limits, or all durations are angles, and no period is given.
     InfeasibleProblem
         If the angles of an axis leave its other segments no time.
     """
@@ -39,6 +39,11 @@ def first_diagram(
         with located(f"axis {name}"):
             timed[name] = _Timed.of(name, segments, cycle_of, period)
     longest = max(each.period for each in timed.values())
+    if period is None and longest == 0.0:
+        raise InputError(
+            "all durations are angles, which leave the period open: leave out those of moves with limits, give times "
+            'such as "0.2 s", or a speed such as "45 rpm"'
+        )
     if period is None or period < longest * (1.0 + CLOSURE):
         period = _ROOM * longest
     return {name: each.at(period) for name, each in timed.items()}, period

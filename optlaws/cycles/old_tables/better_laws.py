@@ -40,6 +40,7 @@ _ROUNDS = 15
 _LOOKS = 800  # places at which the difference of two laws is looked at for its extremes
 _FREE = 4  # the order up to which derivatives are left free at one end and given at the other
 _MOST = 0.25  # of a stroke: tolerances beyond it are none
+_HARDLY_KNOWN = 4.0  # times the least that an old peak may be: where it may be more the table does not tell it
 
 
 class MoveGain(NamedTuple):
@@ -91,8 +92,18 @@ class MoveGain(NamedTuple):
         return new / high - 1.0 if isfinite(high) else nan, new / low - 1.0 if low > 0.0 else inf
 
     def share(self, nu: int) -> float:
-        """The relative change of the peak of order nu, 1 to 3; nan if the old one is infinite or 0."""
+        """The relative change of the peak of order nu, 1 to 3; nan if the old one is infinite, 0 or hardly known.
+
+        Examples
+        --------
+        >>> spike = PeakInterval(0.01, 3.7)
+        >>> MoveGain("rise", 0.0, 120.0, (0.2, 3.69, 79.0), (0.2, 0.19, 0.55), 0.05, (spike,) * 3).share(2)
+        nan
+        """
         old, new = self.old[nu - 1], self.new[nu - 1]
+        low, high = self.intervals[nu - 1] if self.intervals else (old, old)
+        if high > _HARDLY_KNOWN * low:
+            return nan
         return new / old - 1.0 if isfinite(old) and old > 0.0 else nan
 
 

@@ -494,3 +494,6 @@ def test_a_least_period_needs_no_period_to_begin_from() -> None:
         InputError, match=r"axis slide: segment 1 \(Rise\): nothing bounds its time: give it a duration"
     ):
         _ = Axes(unlimited).duration
+    angles = [replace(part, duration="90 deg") for part in slide]
+    with pytest.raises(InputError, match=r"all durations are angles, which leave the period open: leave out"):
+        Axes({"slide": {"segments": angles, "limits": limits}}).fastest()
