@@ -415,6 +415,12 @@ class Axes(AxesAnswers, Declared, title="stored axes"):
         """The report, whose parts are computed once."""
         return AxesReport(self.cycles, self.rules)
 
+    @property
+    def has_clock(self) -> bool:
+        """Whether a speed, a period or a cycle says how long a turn takes."""
+        cycles = any(isinstance(given, Cycle | Plan) for given in self.axes.values())
+        return cycles or self.speed is not None or self.period is not None
+
     @kept_property
     def _begun(self) -> dict[str, Cycle]:
         """The cycles in the diagram from which a least period is sought, where no period is given."""
@@ -570,11 +576,9 @@ class Overlap(AxesAnswers, Declared, title="axes that overlap"):
         what, unit, gain = "greatest acceleration, as a share of the given one", "", "reduction by the factor"
         if self.goal == "period":
             what, unit, gain = "least period", "s", "speed, as a multiple of that before the overlap"
-        values = {
-            what: (self.objective, unit),
-            "lower bound": (self.lower_bound, unit),
-            gain: (self.gain, ""),
-        }
+        values = {what: (self.objective, unit), "lower bound": (self.lower_bound, unit)}
+        if self.goal != "period" or self.given.has_clock:
+            values[gain] = self.gain, ""
         laws = "for these laws, by linear programs in doubles"
         rows = [Row(name, *value, note=laws if name == "lower bound" else "") for name, value in values.items()]
         rows = [*rows, best_possible_row(None, self.objective)]
