@@ -457,14 +457,10 @@ def overload_rows(plan: Solved) -> list[Row]:
     uses = ", ".join(f"{each.name} {100.0 * each.use:.3g} %" for each in overloads(plan))
     if not uses:
         return []
-    others = "a stronger motor, another ratio or more time"
-    if _has_law_within_motor(plan.specification):
-        return [Row("remark", f"the motor is overloaded ({uses}): give the limit motor = true, {others}")]
-    return [
-        Row(
-            "remark", f"the motor is overloaded ({uses}), and no law was found that is within its limits: give {others}"
-        )
-    ]
+    none, limit = ", and no law was found that is within its limits", "the limit motor = true, "
+    why, first = ("", limit) if _has_law_within_motor(plan.specification) else (none, "")
+    remedy = f"give {first}a stronger motor, another ratio or more time"
+    return [Row("remark", f"the motor is overloaded ({uses}){why}: {remedy}")]
 
 
 @lru_cache(maxsize=16)

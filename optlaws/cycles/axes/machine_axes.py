@@ -441,13 +441,12 @@ class Axes(AxesAnswers, Declared, title="stored axes"):
     @kept_property
     def cycles(self) -> dict[str, Cycle]:
         """Its cycles, or plans, which have what is looked at of a cycle."""
+        if not self.has_clock:
+            return self._begun
         clock: dict[str, Any] = {"speed": self.speed, "period": self.period}
         cycles = dict[str, Any]()
-        if self.speed is None and self.period is None:
-            if all(isinstance(given, Cycle | Plan) for given in self.axes.values()):
-                clock = {}
-            elif all(isinstance(given, Mapping | list | tuple) for given in self.axes.values()):
-                return self._begun
+        if not any(clock.values()) and all(isinstance(given, Cycle | Plan) for given in self.axes.values()):
+            clock = {}
         duration = period_of(**clock) if clock else 0.0
         for name, given in self.axes.items():
             with located(f"axis {name}"):
