@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
+from optlaws.cycles.old_tables.standard import JUMP
 from optlaws.cycles.old_tables.stretches import Stretch, law_of_move
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.laws import MotionLaw
@@ -29,7 +30,6 @@ Ends = tuple[tuple[float, ...], tuple[float, ...]]
 _JERK = 1.2  # of an old law's greatest jerk: what a law of less acceleration in its place may have
 _RAMP = 0.1  # of a move: over so much of it a jump of the acceleration at its end is taken
 _SAME = 1e-6  # of a greatest velocity or acceleration: what differs by less is the same
-_JUMP = 1e-3  # of a velocity at an end: a jump by less is no corner
 _LEAST_GAIN = 1e-3  # of an acceleration: for less no law is replaced, as the rounding of a table may show so much
 _SETTLED = 1e-9  # of a tolerance: a law that is no farther beyond it is so by rounding alone
 _PATIENT = 5  # rounds after which it may be ten times as far in each
@@ -181,7 +181,7 @@ def _rounded_corners(stretches: Sequence[Stretch], number: int, room: float) -> 
         states = [(0.0, 0.0)] * 2 if part.law is None else law_of_move(part).boundary_values(2)
         slopes.append([part.stroke / (part.stop - part.start) * state[1] for state in states])
     jump = max(abs(slopes[1][0] - slopes[0][1]), abs(slopes[2][0] - slopes[1][1]))
-    if jump <= _JUMP * max(map(abs, slopes[1])):
+    if jump <= JUMP * max(map(abs, slopes[1])):
         return 0.0, 0.0
     wide = min(8.0 * room / jump, *(part.stop - part.start for part in around))
     return wide, jump * wide / 8.0

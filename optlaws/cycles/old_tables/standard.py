@@ -34,7 +34,7 @@ _INTERVALS = 2048
 #: moves of a chain of which every combination of the best laws is tried
 _MOST_COMBINED = 3
 #: of the greatest velocity or acceleration: by so much it jumps where moves meet
-_JUMP = 1e-3
+JUMP = 1e-3
 #: parts of each piece of a law, each as a polynomial
 _PIECES_OF_LAW = 4
 #: of the last digit: rows that are no farther off are the law's own
@@ -116,7 +116,7 @@ class Chain:
         before, after = np.roll(ends[:, 1], 1), np.roll(ends[:, 0], -1)
         before[0], after[-1] = (before[0], after[-1]) if self.turn else (0.0, 0.0)
         apart = np.maximum(np.abs(ends[:, 0] - before), np.abs(ends[:, 1] - after))
-        return np.asarray(apart > _JUMP * greatest)
+        return np.asarray(apart > JUMP * greatest)
 
     def uncertainty(self, move: int, nu: int) -> float:
         """The share of a peak by which it may be wrong, one standard deviation."""

@@ -11,6 +11,7 @@ import numpy as np
 
 from optlaws.cycles.old_tables.motion import SHORTEST, FittedMotion, FittedMove
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
+from optlaws.cycles.old_tables.standard import JUMP
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.catalogue.tables.curve_pieces import law_of_curve
@@ -22,8 +23,6 @@ StretchKind: TypeAlias = Literal["dwell", "rise", "return"]
 
 #: of a move: breaks that are nearer to its ends are these
 _APART = 1e-9
-#: of the greatest velocity: by so much it jumps at a corner
-_JUMP = 1e-3
 
 
 @dataclass(frozen=True)
@@ -160,7 +159,7 @@ def corners_of(stretches: Sequence[Stretch]) -> tuple[float, ...]:
         places += (part.start + (part.stop - part.start) * k[:-1]).tolist()
         before, after = before + ends.tolist(), after + begins.tolist()
     jumps = np.abs(np.array(after) - np.roll(before, 1))
-    return tuple(np.array(places)[jumps > _JUMP * greatest].tolist())
+    return tuple(np.array(places)[jumps > JUMP * greatest].tolist())
 
 
 def law_of_move(part: Stretch) -> MotionLaw:
