@@ -319,16 +319,17 @@ def convex_branches(motion: MotionFormula) -> list[MotionFormula] | None:
     return several if several and all(branch.curvature.convex for branch in several) else None
 
 
-def kinked_integral(space: ExactSpace, motion: MotionFormula, point: Sequence[float]) -> list[arb]:
-    """An affine lower bound of the integral of a maximum of smooth convex formulas.
+def kinked_integral(
+    space: ExactSpace, motion: MotionFormula, branches: Sequence[MotionFormula], point: Sequence[float]
+) -> list[arb]:
+    """An affine lower bound of the integral of a formula that is the greatest of its smooth convex branches.
 
     On every stretch it is the integral of a tangent of that one which is the greatest there in a law, whose variables
     the point gives: whichever it is, the formula is nowhere below it. LookupError where the point belongs to no such
     row.
     """
-    branches = convex_branches(motion) or []
     laws = space_of(space.problem.basis, space.problem.conditions, symmetric=space.problem.symmetric)
-    if not branches or len(point) < laws.terms:
+    if len(point) < laws.terms:
         raise LookupError
     family = integral_rows(laws, motion, "", np.zeros(laws.terms), 0.0, root=False, convex=True)
     if not isinstance(family, KinkedIntegralFamily):

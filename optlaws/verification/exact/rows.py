@@ -259,14 +259,15 @@ class ExactRows:
             self._add(name, lambda contact, _: limit.row(value / whole for value in columns(contact.direction)))
             return
         root, kinked = isinstance(constant, FormulaRms), bool(switches(motion.formula, ORDERS))
-        if kinked and (root or convex_branches(motion) is None):
+        branches = convex_branches(motion) if kinked and not root else None
+        if kinked and branches is None:
             of = "root mean square of a formula with kinks" if root else "integral of no maximum of convex formulas"
             raise NoExactRowsError(f"there are no exact rows for {name}: it is the {of}")
         unit = ball(constant.length).sqrt() if isinstance(constant, FormulaRms) else arb(1)
 
         def make(contact: Contact, _: Fraction) -> BallRow:
-            if kinked:
-                return limit.row(kinked_integral(self.space, motion, contact.direction))
+            if branches is not None:
+                return limit.row(kinked_integral(self.space, motion, branches, contact.direction))
             squares = squared(motion) if root else motion
             columns = tangent_integral(self.space, squares, contact.direction, root=root)
             return limit.row(value / unit for value in columns)
