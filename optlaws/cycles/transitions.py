@@ -229,6 +229,16 @@ class TransitionCam(MovePlan, Declared, title="a transition cam"):
         if self.least is not None and self.least.duration != self.duration:
             raise InputError(f"{self.named} takes {self.duration!r} s, but its least time is another")
 
+    def contradiction(self, cycle: Any) -> str:
+        """What differs where it meets the motion of a cycle; empty of the cycle that it belongs to."""
+        if abs(cycle.duration - self.period) > STORED_VALUE * self.period:
+            return f"its cycle takes {self.period!r} s, not {cycle.duration!r} s"
+        known = _state(self.kind, cycle.specification.programme, cycle.pieces, self.at)
+        for nu, (name, stated, value) in enumerate(zip(QUANTITIES, self.state, known, strict=True)):
+            if abs(stated - value) > sqrt(STORED_VALUE) * self._size(nu):
+                return f"{name} {stated!r} stated where it meets the cycle, which has {value!r} there"
+        return ""
+
     def __repr__(self) -> str:
         first, last = self.master
         return (

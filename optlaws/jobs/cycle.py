@@ -49,7 +49,6 @@ Exports: TypeAlias = "dict[str, dict[str, Export]]"
 
 #: what the picture of all axes is called
 TOGETHER = "axes"
-TRANSITIONS = "transitions.json"
 _PEAKS = ("peak velocity", "peak acceleration", "peak jerk")
 _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, unit")
 _RUN = "What controllers will run: peaks of the exported files as interpolated, over the law's."
@@ -95,8 +94,6 @@ def run(results: Results) -> None:
             page.text(_RUN).table(_EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()])
     for transition in transitions:
         _add_transition(page, results, transition, cycles[transition.axis], spec.rows)
-    if transitions:
-        results.data(TRANSITIONS, {transition.name: transition.cam.claims() for transition in transitions})
     for number, sweep in enumerate(sweeps, 1):
         axis, entry = sweep.entries.axis, sweep.entries.entry
         results.table(f"sweep_{number}", *sweep.table)
@@ -105,7 +102,8 @@ def run(results: Results) -> None:
         page.text(sweep.remark).table(*sweep.table)
         results.stopped = sweep.remark if sweep.stopped else results.stopped
     facts = {"unit": "SI", "axes": {name: steady(CycleReport(cycle).stored) for name, cycle in cycles.items()}}
-    results.data("cycle.json", facts | _beside(cycles, overlap, transitions))
+    with_proofs = {name: {"axis": axis, **cam.report().data, "cam": cam.to_dict()} for name, axis, cam in transitions}
+    results.data("cycle.json", facts | _beside(cycles, overlap, with_proofs))
     if fastest:
         results.data("fastest.json", {name: axis.claims() for name, axis in fastest.items()})
 
@@ -118,15 +116,14 @@ def answer(entries: Mapping[str, Any], file: Path) -> dict[str, Any]:
     overlap = spec.overlap_of(given, file)
     axes = given if overlap is None else overlap.axes
     data = {name: cycle.report().data for name, cycle in axes.items()}
-    return data | _beside(axes, overlap, _transitions(spec.axis, axes, file))
+    transitions = {name: cam.report().data for name, _, cam in _transitions(spec.axis, axes, file)}
+    return data | _beside(axes, overlap, transitions)
 
 
-def _beside(axes: Axes, overlap: Overlap | None, transitions: Sequence[AxisTransition]) -> dict[str, Any]:
+def _beside(axes: Axes, overlap: Overlap | None, transitions: Mapping[str, Any]) -> dict[str, Any]:
     """What is known beside the axes for programs: clearances, what overlaps, run-ins and run-outs, if there are any."""
     known = dict((axes if overlap is None else overlap).report().data)
-    if transitions:
-        known["transitions"] = {name: cam.report().data for name, _, cam in transitions}
-    return known
+    return known | ({"transitions": transitions} if transitions else {})
 
 
 def fastest_of(cycles: Mapping[str, Cycle], file: Path) -> dict[str, FastestCycle]:

@@ -256,13 +256,18 @@ def _array(array: Data, data: Data, path: str) -> Iterator[tuple[str, FileEntry]
 
 
 def _axes(machine: Data, data: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
-    """The plan of each axis, and the machine where something is said of its axes together."""
+    """The plan of each axis, the laws of run-ins and run-outs, and the machine where something is said of it."""
     for place, plan in _inside(machine["axes"], _place(path, "axes")):
         if not isinstance(plan, Mapping) or kind_of(plan) != "plan":
             raise InputError(
                 f"{NO_FILE}: {place} has no plan, its cycle with the solutions, from which its numbers follow"
             )
         yield place, FileEntry(plan)
+    for place, transition in _inside(machine["transitions"], _place(path, "transitions")):
+        cam = transition.get("cam") if isinstance(transition, Mapping) else None
+        for name in ("best", "least"):
+            if isinstance(cam, Mapping) and cam.get(name) is not None:
+                yield from _walk(cam[name], f"{place}.cam.{name}", FileEntry({}))
     if any(machine[name] is not None for name in ("interlocks", "overlap", "transitions")):
         yield path, FileEntry(data)
 

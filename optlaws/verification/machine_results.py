@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -9,6 +11,7 @@ from functools import partial
 from math import inf, nextafter, sqrt
 from typing import Any, NamedTuple
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError, OptlawsError
 from optlaws.files.reading import entries_of
 from optlaws.lazy import imported
@@ -34,6 +37,9 @@ from optlaws.verification.result import (
 from optlaws.verification.stated_solutions import solution
 
 _MOST = 1000  # rows of a list
+_SOUGHT = 1e-7  # of a number: where searches end, each within 1e-9 of a time; a tenth of what the proofs leave
+_NOUGHT = 1e-6  # of what is about 1: numbers that are less are compared with it
+_NUMBERS = re.compile(r"((?<![\w.])\d+(?:\.\d+)?(?:e[-+]?\d+)?)")
 
 
 def plan(data: Data) -> Verification:
@@ -187,6 +193,38 @@ def _sought_again(plan: Any, bound: float) -> Claim:
     return recomputed("lower_bound", detail, "" if agrees else detail)
 
 
+def least_period(fastest: Any) -> Verification:
+    """Check that the least times and the problems of the proofs are those of the cycle, by the same search."""
+    name = "the motions of the proofs"
+    try:
+        again = fastest.specification.fastest()
+    except OptlawsError as error:
+        return with_claims(Verification(), [Claim(name, proven=False, detail=str(error), checked=False)])
+    stated, second = map(_sought, (fastest, again))
+    wrong = [
+        f"{key} {shortened(value)} stated, {shortened(second.get(key))} by the same search in doubles"
+        for key, value in stated.items()
+        if not _alike(value, second.get(key))
+    ]
+    detail = "they are those of the cycle, in a millionth less than their times, by the same search in doubles"
+    return with_claims(Verification(), [recomputed(name, detail, "; ".join(wrong))])
+
+
+def _sought(fastest: Any) -> Data:
+    """What a search for the least period finds: times, and the problems that have no laws in a little less."""
+    known = {name: value for name, value in fastest.to_dict().items() if name not in {"given", "cycle", "proofs"}}
+    return known | {name: proof.problem.to_dict() for name, proof in fastest.proofs.items()}
+
+
+def _alike(*data: Any) -> bool:
+    """Whether data are the same, their numbers, also those in formulas, but for where a search for a time may end."""
+    first, second = (_NUMBERS.split(json.dumps(value)) for value in data)
+    if first[::2] != second[::2]:
+        return False
+    pairs = zip(map(float, first[1::2]), map(float, second[1::2]), strict=True)
+    return all(abs(each - other) <= _SOUGHT * max(abs(each), abs(other), _NOUGHT) for each, other in pairs)
+
+
 def _total(shares: Sequence[_Share], period: float, objective: Any, end: int | None, side: float) -> float:
     """An objective of an end of all shares, or of what no law is below, rounded to a side."""
     sizes = [
@@ -297,14 +335,11 @@ def _by_name(stated: Data, known: Data) -> tuple[Data, Data]:
 
 
 def axes(data: Data) -> Verification:
-    """Check what is stated of the axes of a machine together: their interlocks, and their overlap."""
+    """Check what is stated beside the axes of a machine: interlocks, overlap, run-ins and run-outs."""
     try:
         claims = list(_together(data))
     except OptlawsError as error:
         claims = [Claim("the axes together", proven=False, detail=str(error))]
-    if data.get("transitions") is not None:
-        detail = "their laws and proofs are in transitions.json"
-        claims.append(Claim("the transitions", proven=False, detail=detail, checked=False))
     return with_claims(Verification(), claims)
 
 
@@ -324,6 +359,25 @@ def _together(data: Data) -> Iterator[Claim]:
         yield from _overlap_claims(known)
     stated = {name: data[name] for name in ("interlocks", "overlap") if data.get(name) is not None}
     yield from _numbers(stated, known.report().data)
+    for name, row in (data.get("transitions") or {}).items():
+        yield from _transition(f"transitions.{name}", row, plans)
+
+
+def _transition(name: str, row: Data, plans: Mapping[str, Any]) -> Iterator[Claim]:
+    """The claims of the numbers of a run-in or run-out, and that it meets the motion of its axis."""
+    if row.get("cam") is None:
+        # as earlier files have it
+        yield Claim(name, proven=False, detail="its law and its proof are in transitions.json", checked=False)
+        return
+    cam = imported("optlaws.cycles.transitions").TransitionCam.from_dict(row["cam"])
+    numbers = {key: value for key, value in row.items() if key not in {"axis", "cam"}}
+    wrong = [replace(claim, name=f"{name}.{claim.name}") for claim in differences(numbers, cam.report().data, "")]
+    plan = plans.get(row.get("axis", ""))
+    missed = f"no axis is called {row.get('axis')!r}" if plan is None else cam.contradiction(plan)
+    detail = f"it meets its axis, and its numbers agree, in doubles; status {cam.status.value}"
+    yield from wrong
+    if missed or not wrong:
+        yield recomputed(name, detail, missed)
 
 
 def overlap_of_axes(data: Data) -> Verification:

@@ -72,11 +72,15 @@ def test_a_fastest_cycle_is_proven_by_its_certificates() -> None:
     verification = verify(data)
     assert verification.proven
     assert {claim.name.split(":")[0] for claim in verification.claims} == {f"{name}.proof" for name in data["proofs"]}
-    assert [claim.name for claim in verification.recomputed] == ["the laws of the cycle"]
-    assert [claim.name for claim in verification.unchecked] == ["the motions of the proofs"]
+    again = ["the least period: the motions of the proofs", "the laws of the cycle"]
+    assert [claim.name for claim in verification.recomputed] == again
+    assert not verification.unchecked
     (name, proof), *_ = data["proofs"].items()
     weak = changed(data, ("proofs", name, "contacts"), proof["contacts"][1:])
-    for wrong in (changed(data, ("period",), 2.0 * data["period"]), weak):
+    # a limit that is wider is no limit of the cycle, and its proof none that the cycle is no faster
+    wider = changed(data, ("proofs", name, "problem", "C", 1), 1.01 * proof["problem"]["C"][1])
+    longer = changed(data, ("segments", 0, "least"), 0.99 * data["segments"][0]["least"])
+    for wrong in (changed(data, ("period",), 2.0 * data["period"]), weak, wider, longer):
         assert not verify(wrong).proven
 
 

@@ -280,7 +280,16 @@ def test_they_are_tabled_drawn_exported_and_proven(tmp_path: Path) -> None:
         assert {f"{cam}.csv", f"{cam}.svg", f"{cam}_codesys-xyva.st"} <= names
     table = [row.split(",") for row in (tmp_path / "out" / "slide_run_in.csv").read_text("utf-8").splitlines()[2:]]
     assert [float(cell) for cell in table[-1][:4]] == pytest.approx([20.0, 0.25, 10 * (0.5 - 1 / pi), 90.0], rel=1e-6)
-    assert exit_code(["verify", str(tmp_path / "out" / "transitions.json")]) == 0
+    # the laws are proven, the numbers beside them computed again: nothing is left unchecked
+    stored = tmp_path / "out" / "cycle.json"
+    assert exit_code(["verify", str(stored)]) == 0
+    data = json.loads(stored.read_text("utf-8"))
+    assert {"transitions.slide_run_in.cam.best", "transitions.slide_run_out.cam.best"} < verify_all(data).keys()
+    for name, value in (("velocity", 0.3), ("axis", "ram"), ("cam", data["transitions"]["slide_run_out"]["cam"])):
+        data["transitions"]["slide_run_in"] |= {name: value}
+        assert not all(each.proven for each in verify_all(data).values())
+    data["transitions"] = {"slide_run_in": {"kind": "run-in"}}
+    assert [claim.name for claim in verify_all(data)[""].unchecked] == ["transitions.slide_run_in"]
 
 
 def test_the_summary_says_what_no_law_of_any_degree_beats_or_that_it_is_not_known() -> None:
