@@ -306,3 +306,44 @@ def test_a_rest_that_meets_a_ramp_of_constant_velocity_at_a_corner_stays(begin: 
     assert [part.stop for part in table.stretches][1:3] == pytest.approx([100.0, 170.0], abs=0.5)
     assert [peak.is_known for peak in table.peaks] == [True, False, False]
     assert table.off[0] <= table.room * (1.0 + 1e-9)
+
+
+@pytest.mark.parametrize(
+    ("begin", "lift", "end", "ramp", "name", "noise", "mirrored"),
+    [
+        (25.0, 41.0, 116.0, 1.257, "4-5-6-7 polynomial", 0.0, False),  # the law begins more slowly than the ramp ends
+        (
+            32.0,
+            65.0,
+            126.0,
+            0.605,
+            "3-4-5 polynomial",
+            0.005,
+            True,
+        ),  # which is straight in its middle as far as noise tells
+        (15.0, 30.0, 99.0, 0.322, "4-5-6-7 polynomial", 0.003, False),  # and rests for some degrees
+        (10.0, 40.0, 123.0, 0.27, "modified trapezoid", 0.001, True),  # the rest before it is short
+    ],
+)
+def test_a_ramp_of_constant_velocity_ends_where_a_law_from_rest_begins(
+    begin: float, lift: float, end: float, ramp: float, name: str, noise: float, *, mirrored: bool
+) -> None:
+    x, law = np.linspace(0.0, 360.0, 721), catalogue[name].law
+    y = ramp * np.clip((x - begin) / (lift - begin), 0.0, 1.0) + 22.0 * law(
+        np.clip((x - lift) / (end - lift), 0.0, 1.0)
+    )
+    y -= (22.0 + ramp) * QUINTIC(np.clip((x - 180.0) / 110.0, 0.0, 1.0))
+    y = np.round(y + np.random.default_rng(4).normal(0.0, noise, len(x)), 4)
+    table = split_table(x, y[::-1] if mirrored else y, digit=1e-4)
+    kinds = [(part.kind, part.law) for part in table.stretches]
+    places = [begin, lift, end, 180.0, 290.0]
+    if mirrored:
+        there = {"rise": "return", "return": "rise", "dwell": "dwell"}
+        kinds = [(there[kind], found) for kind, found in kinds[::-1]]
+        places = [360.0 - place for place in places[::-1]]
+    moves = [("rise", "constant velocity"), ("rise", name), ("dwell", None), ("return", "3-4-5 polynomial")]
+    assert kinds == [("dwell", None), *moves, ("dwell", None)]
+    assert [part.stop for part in table.stretches[:-1]] == pytest.approx(places, abs=0.05 + 30.0 * noise)
+    assert table.corners == pytest.approx(places[-2:] if mirrored else places[:2], abs=0.05 + 30.0 * noise)
+    assert [peak.is_known for peak in table.peaks] == [True, False, False]
+    assert all(0.0 < part.distance <= max(table.room, 4.5 * noise) for part in table.moves)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
-from typing import TypeAlias
+from itertools import combinations, pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -77,6 +77,13 @@ class FittedMove:
         """Whether it is the place alone at which two lines meet."""
         return self.start == self.stop
 
+    @property
+    def corners(self) -> tuple[bool, bool]:
+        """Whether the velocity jumps at its ends: standard laws know nothing of the lines beside them."""
+        return (
+            (True, True) if self.is_corner else (bool(self.name and self.slopes[0]), bool(self.name and self.slopes[1]))
+        )
+
     def position_before(self, place: float) -> float:
         """The position at a place before it, on the line from which it starts."""
         return self.low + self.slopes[0] * (place - self.start)
@@ -118,38 +125,53 @@ def motion_of(samples: Samples) -> FittedMotion:
         clean = clean.without(np.isin(clean.places, far))
         rests = rests_of(clean)
     advance = _advance(clean)
-    turn, crests, tried, known = float(np.ptp(clean.places)), list[float](), list[float](), dict[object, _Divided]()
+    turn, crests, tried, known = float(np.ptp(clean.places)), list[float](), list[float](), dict[object, _Parts]()
     doubtful = _doubtful(clean, rests)
     begun, rests, divided = _divided(clean, doubtful if len(doubtful) == len(rests) else [], advance, known)
-    if not divided[0] or not all(move.name for move in divided[0]):
+    if not divided.moves or not all(move.name or move.is_corner for move in divided.moves):
         begun, rests, divided = _divided(clean, crests, advance, known)
         while untried := [middle for middle in _doubtful(begun, rests) if middle not in tried]:
             tried.append(untried[0])
             other = _divided(clean, [*crests, untried[0]], advance, known)
-            if _simplicity(clean, other[2]) < _simplicity(clean, divided):
+            if other[2].criterion(len(clean.places)) < divided.criterion(len(clean.places)):
                 crests, (begun, rests, divided) = [*crests, untried[0]], other
-    moves, squares, free, left_out = divided
-    far += left_out
+    moves, far = divided.moves, far + divided.far
     turns = [int((0.5 * (move.start + move.stop) - clean.places[0]) // turn) for move in moves]
     moves = [move.moved(-k * turn, -k * advance) if k else move for k, move in zip(turns, moves, strict=True)]
     apart = np.abs(samples.places[:, None] - np.array(far)), np.abs(samples.places[:, None] + turn - np.array(far))
     suspects = samples.suspects | (np.minimum(*apart) < _SAME * turn).any(axis=1)
     moves.sort(key=lambda move: move.start)
-    return FittedMotion(replace(samples, suspects=suspects), tuple(moves), squares / max(free, 1.0))
+    variance = divided.squares / max(len(clean.places) - divided.free, 1)
+    return FittedMotion(replace(samples, suspects=suspects), tuple(moves), variance)
 
 
-#: the moves of a region, the sum of their squares, the degrees of freedom left, and places far off
-_Divided: TypeAlias = tuple[list[FittedMove], float, float, list[float]]
+class _Parts(NamedTuple):
+    """Moves, the sum of squares of their rows, the number of parameters, and places far off that are left out."""
+
+    moves: list[FittedMove]
+    squares: float
+    free: int
+    far: list[float]
+
+    def criterion(self, rows: int) -> float:
+        """Schwarz's criterion."""
+        return criterion(self.squares, self.free, rows)
+
+    @classmethod
+    def joined(cls, parts: Sequence[_Parts], free: int = 0) -> _Parts:
+        """Parts after each other, with further parameters."""
+        moves, far = [move for part in parts for move in part.moves], [place for part in parts for place in part.far]
+        return cls(moves, sum(part.squares for part in parts), free + sum(part.free for part in parts), far)
 
 
 def _divided(
-    samples: Samples, crests: list[float], advance: float, known: dict[object, _Divided]
-) -> tuple[Samples, list[Line], _Divided]:
+    samples: Samples, crests: list[float], advance: float, known: dict[object, _Parts]
+) -> tuple[Samples, list[Line], _Parts]:
     """The turn as it is begun, its rests and its moves; further rests that are none join the crests."""
     while True:
         begun, rests = _begun(samples, crests, advance)
         divided = _moves_between(begun, rests, float(samples.places[-1]), advance, known)
-        more = _crests(begun, rests, divided[0])
+        more = _crests(begun, rests, divided.moves)
         if not more:
             return begun, rests, divided
         crests += more
@@ -163,26 +185,15 @@ def _doubtful(samples: Samples, rests: Sequence[Line]) -> list[float]:
     return [float(0.5 * (x[rest.first] + x[rest.last])) for rest in noisy]
 
 
-def _simplicity(samples: Samples, divided: _Divided) -> float:
-    """Schwarz's criterion of the moves of a turn."""
-    rows = len(samples.places)
-    return criterion(divided[1], max(rows - round(divided[2]), 1), rows)
-
-
 def _moves_between(
-    samples: Samples, rests: Sequence[Line], seam: float, advance: float, known: dict[object, _Divided]
-) -> _Divided:
+    samples: Samples, rests: Sequence[Line], seam: float, advance: float, known: dict[object, _Parts]
+) -> _Parts:
     """The moves between rests; regions that are `known` are as before."""
-    moves, squares, free, far = list[FittedMove](), 0.0, 1.0, list[float]()
-    for before, after in pairwise([None, *rests, None]):
-        key = float(samples.places[0]), before, after
+    keys = [(float(samples.places[0]), before, after) for before, after in pairwise([None, *rests, None])]
+    for key in keys:
         if key not in known:
-            region, counts = _Region(samples, before, after, seam, advance, split=True), [0.0, 0.0]
-            of_region = list(region.moves(counts)) if region.moves_at_all else []
-            known[key] = of_region, counts[0], counts[1], region.far
-        of_region, more_squares, more_free, more_far = known[key]
-        moves, squares, free, far = moves + of_region, squares + more_squares, free + more_free, far + more_far
-    return moves, squares, free, far
+            known[key] = _Region(samples, *key[1:], seam, advance, split=True).parts()
+    return _Parts.joined([known[key] for key in keys])
 
 
 def _crests(samples: Samples, rests: Sequence[Line], moves: Sequence[FittedMove]) -> list[float]:
@@ -268,6 +279,14 @@ class _Region:
         levels = {end.line[1] for end in self.ends if end.line is not None}
         return self.rows > 1 or self._corner is not None or (self.rows == 1 and len(levels) == 2)
 
+    def _resting(self) -> _Parts:
+        """No moves: its rows are those of the rests beside it."""
+        before, after = (end if end.line else other for end, other in (self.ends, self.ends[::-1]))
+        off = (
+            np.where(self.x < 0.5 * sum(self.about), before.value(self.x), after.value(self.x)) - self.y
+        ) / self.noise
+        return _Parts([], float(off @ off), 0, [])
+
     @cached_property
     def _corner(self) -> tuple[float, float, float] | None:
         """Place and position of the corner at which the lines beside it meet, with the sum of squares; None if none."""
@@ -284,42 +303,41 @@ class _Region:
             return None
         return float(at), float(before.value(np.array(at))), squares
 
-    def moves(self, total: list[float]) -> Iterator[FittedMove]:
+    def parts(self) -> _Parts:
         """The moves of the region."""
         if self.rows <= _FEWEST_MOVING:
-            yield from self._few_rows(total)
-            return
+            return self._few_rows() if self.moves_at_all else self._resting()
+        lines = lines_of(self.samples, self.first, self.last) if self.split else []
         while True:  # rows that are left out may have looked like turning points, and bent the fits
             places = self._turns()
             chains = self._chains(places)
             if chains and self._left_out(chains[0]):
                 continue
-            chain = chains[0] if chains else None
-            plain = chain is not None and likely(chain.squares, len(self.x))
-            fits = tuple(fits_of(self.x, self.y, self.noise, self.ends, self.advance, simple=plain))
+            plain = bool(chains) and likely(chains[0].squares, len(self.x))
+            explained = self._explained_parts(lines) if lines and not plain else None
+            if explained and self._is_simpler(explained, self._fits(simple=True)):
+                return explained
+            fits = self._fits(simple=plain)
             if plain or not fits or not self._left_out_beside(fits[0]):
                 break
-        x, y = self.x, self.y
-        at_seam = self._ends_at_seam(fits)
-        if at_seam is not None:
-            self.ends = at_seam
-            fits = tuple(fits_of(x, y, self.noise, self.ends, self.advance, simple=plain))
-        if fits and len(x) < 2 * fits[0].free and fits[0].variance > UNRESOLVED:
+        if fits and len(self.x) < 2 * fits[0].free and fits[0].variance > UNRESOLVED:
             fits = ()
-        near = [name for name in chain.names if name] if chain else [""] * (len(places) - 1)
-        if chain is not None and not (self._explains(chain, fits[0]) if fits else plain):
-            chain = None
+        if chains and (self._explains(chains[0], fits[0]) if fits else plain):
+            return _Parts(list(self._of_chain(chains, fits)), chains[0].squares, chains[0].free, self.far)
         simple = bool(fits) and fits[0].pieces <= SIMPLE and not fits[0].joints and fits[0].variance <= UNRESOLVED
-        if chain is None and self.split and not simple:
-            parts, counts = self._straight_parts()
-            simpler = criterion(counts[0], round(len(x) - counts[1]), len(x))
-            if parts and (not fits or simpler < fits[0].criterion(float(np.log(len(x))))):
-                total[0], total[1] = total[0] + counts[0], total[1] + counts[1]
-                yield from parts
-                return
-        total[0] += chain.squares if chain else fits[0].squares if fits else 0.0
-        total[1] += len(x) - (chain.free if chain else fits[0].free if fits else 0)
-        yield from self._of_chain(chains, fits) if chain else self._of_fits(fits, places, near)
+        if lines and not simple and self._is_simpler(straight := self._parts_between(lines), fits):
+            return straight
+        near = [name for name in chains[0].names if name] if chains else [""] * (len(places) - 1)
+        squares, free = (fits[0].squares, fits[0].free) if fits else (0.0, len(self.x))
+        return _Parts(list(self._of_fits(fits, places, near)), squares, free, self.far)
+
+    def _fits(self, *, simple: bool) -> tuple[CurveFit, ...]:
+        fits = tuple(fits_of(self.x, self.y, self.noise, self.ends, self.advance, simple=simple))
+        at_seam = self._ends_at_seam(fits)
+        if at_seam is None:
+            return fits
+        self.ends = at_seam
+        return tuple(fits_of(self.x, self.y, self.noise, self.ends, self.advance, simple=simple))
 
     def _turns(self) -> list[float]:
         """Where the region begins, turns and ends; a single row makes no turn."""
@@ -330,15 +348,13 @@ class _Region:
         low, high = self.about
         return [low, *(float(self.x[i]) for i in turns if low < self.x[i] < high), high]
 
-    def _few_rows(self, total: list[float]) -> Iterator[FittedMove]:
+    def _few_rows(self) -> _Parts:
         """The corner of a region of few rows, or what goes through these."""
         if self._corner is None:
-            total[1] += len(self.x) - self.rows
-            yield from self._of_fits((), self.about, [""])
-            return
+            return _Parts(list(self._of_fits((), self.about, [""])), 0.0, self.rows, [])
         place, height, squares = self._corner
-        total[0], total[1] = total[0] + squares, total[1] + len(self.x)
-        yield FittedMove(place, place, height, height, (), "", "", slopes=(self.ends[0].slope, self.ends[1].slope))
+        slopes = self.ends[0].slope, self.ends[1].slope
+        return _Parts([FittedMove(place, place, height, height, (), "", "", slopes=slopes)], squares, 0, [])
 
     def _ends_at_seam(self, fits: Sequence[CurveFit]) -> tuple[End, End] | None:
         """Its ends, of which one that moves about the seam is exactly there; None where there is none."""
@@ -349,18 +365,37 @@ class _Region:
                 ends[side] = end._replace(low=self.seam, high=self.seam)
         return (ends[0], ends[1]) if tuple(ends) != self.ends else None
 
-    def _straight_parts(self) -> tuple[list[FittedMove], list[float]]:
-        """Moves between runs of constant velocity, with the sum of their squares and the degrees of freedom left."""
-        total, moves = [0.0, float(len(self.x))], list[FittedMove]()
-        lines = lines_of(self.samples, self.first, self.last)
-        for before, after in pairwise([self.before, *lines, self.after]) if lines else ():
-            part = _Region(self.samples, before, after, self.seam, 0.0, split=False)
-            if part.moves_at_all:
-                counts = [0.0, 0.0]
-                moves += part.moves(counts)
-                total[0], total[1] = total[0] + counts[0], total[1] - (len(part.x) - counts[1])
-        total[1] -= 2 * len(lines)
-        return moves, total
+    def _explained_parts(self, lines: Sequence[Line]) -> _Parts | None:
+        """Corners and standard laws between as many of the lines as leave nothing but noise; None where none do."""
+        explained = dict[object, bool]()
+        for count in range(len(lines), 0, -1):  # the middle of a law may look like a line
+            for some in combinations(lines, count):
+                keys = list(pairwise([self.before, *some, self.after]))
+                for key in keys:
+                    if key not in explained:
+                        explained[key] = self._part(*key).is_explained
+                if all(explained[key] for key in keys):
+                    return self._parts_between(some)
+        return None
+
+    @property
+    def is_explained(self) -> bool:
+        """Whether noise alone is between its rows and rests, a corner or standard laws."""
+        if not self.moves_at_all or self.rows <= _FEWEST_MOVING:
+            return not self.moves_at_all or self._corner is not None
+        return any(likely(chain.squares, len(self.x)) for chain in self._chains(self._turns())[:1])
+
+    def _part(self, before: Line | None, after: Line | None) -> _Region:
+        return _Region(self.samples, before, after, self.seam, 0.0, split=False)
+
+    def _parts_between(self, lines: Sequence[Line]) -> _Parts:
+        """Moves between given lines."""
+        parts = [self._part(*beside).parts() for beside in pairwise([self.before, *lines, self.after])]
+        return _Parts.joined(parts, 2 * len(lines))
+
+    def _is_simpler(self, parts: _Parts, fits: Sequence[CurveFit]) -> bool:
+        rows = len(self.x)
+        return not fits or parts.criterion(rows) < fits[0].criterion(float(np.log(rows)))
 
     def _left_out(self, chain: Chain) -> int:
         """Leave out rows far off standard laws that explain all others, and tell how many these are."""
@@ -402,20 +437,21 @@ class _Region:
 
     def _chains(self, places: Sequence[float]) -> list[Chain]:
         """The nearest standard laws between the turning points of the region, and those that are about as near."""
-        if any(end.slope for end in self.ends) or len(places) - 1 > 4 or len(self.x) < 2 * len(places) + 2:
+        if len(places) - 1 > 4 or len(self.x) < 2 * len(places) + 2:
             return []
         heights, known = np.interp(places, self.x, self.y), np.zeros(len(places), dtype=bool)
         for side, end in ((0, self.ends[0]), (-1, self.ends[1])):
             if end.line is not None:
-                heights[side], known[side] = end.line[1], True
+                heights[side], known[side] = end.value(np.array(places[side])), True
         if not np.all(np.abs(np.diff(heights)) > 0.0):
             return []
         bounds, turn = (float(self.x[0]), float(self.x[-1])), 0.0
         if self.advance is not None:
             turn = self.about[1] - self.about[0]
             bounds = bounds[0] - _BEYOND_TURN * turn, bounds[1] + _BEYOND_TURN * turn
+        slopes = self.ends[0].slope, self.ends[1].slope
         outline = Outline(
-            self.x, self.y, self.noise, np.array(places), heights, known, bounds, turn, self.advance or 0.0
+            self.x, self.y, self.noise, np.array(places), heights, known, bounds, turn, self.advance or 0.0, slopes
         )
         chains = outline.chains()
         if len(places) > 2 and not likely(chains[0].squares, len(self.x)):
@@ -450,8 +486,9 @@ class _Region:
                 yield from self._parts((spline_of(chain, i),), [low, at, high], ["", ""], variance, most)
                 continue
             first, last = map(float, chain.heights[i : i + 2])
+            slopes = chain.slopes[0] if i == 0 else 0.0, chain.slopes[1] if i == len(chain.names) - 1 else 0.0
             peaks = [self._interval(nu, low, high, most[nu - 1], variance) for nu in (1, 2, 3)]
-            yield FittedMove(low, high, first, last, tuple(fits), name, name, tuple(peaks))
+            yield FittedMove(low, high, first, last, tuple(fits), name, name, tuple(peaks), slopes)
 
     def _of_fits(self, fits: Sequence[CurveFit], places: Sequence[float], near: Sequence[str]) -> Iterator[FittedMove]:
         most = None

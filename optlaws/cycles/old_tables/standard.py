@@ -59,6 +59,8 @@ class Chain:
         The standard deviations of places, shape (n + 1,), and of heights behind these, for the noise of the rows.
     turn, advance
         Of a chain that goes on at its beginning where it ends: its length, and what it advances by; else 0.
+    slopes
+        The velocities of the lines from which it starts and in which it ends, of which its laws may know nothing.
     """
 
     names: tuple[str, ...]
@@ -69,25 +71,25 @@ class Chain:
     deviations: Array
     turn: float = 0.0
     advance: float = 0.0
+    slopes: tuple[float, float] = (0.0, 0.0)
 
     def __call__(self, x: Array) -> Array:
-        """The positions at places; those at its ends beyond them."""
+        """The positions at places; those of the lines beside it beyond its ends."""
         turns = np.floor((x - self.places[0]) / self.turn) if self.turn else np.zeros(x.shape)
-        return _positions(self.names, self.places, self.heights, x - turns * self.turn) + turns * self.advance
+        x = x - turns * self.turn
+        beyond = x - np.clip(x, self.places[0], self.places[-1])
+        lines = np.where(beyond < 0.0, *self.slopes) * beyond
+        return _positions(self.names, self.places, self.heights, x) + lines + turns * self.advance
 
     def rounded(self, x: Array, y: Array, noise: Array, digit: float, bounds: tuple[float, float]) -> Chain:
         """The chain with places as round, and heights, as the rows allow; it ends in the bounds."""
         count = len(self.places)
         for places in (*rounded_places(self.places, x), self.places):
-            heights = self.heights.copy()
-            if places is not self.places:
-                if digit:
-                    free = self.deviations[count:] > 0.0
-                    heights = np.where(free, np.round(heights / digit) * digit, heights)
-                for i, name in enumerate(self.names):
-                    if not name:
-                        heights[i + 1] = heights[i]
+            heights = self.heights if places is self.places or not digit else self._rounded_heights(digit)
             inside = np.clip(places, *bounds)
+            heights = heights + np.array([self.slopes[0], *[0.0] * (count - 2), self.slopes[1]]) * (
+                inside - self.places
+            )
             if self.turn:
                 inside[-1], heights[-1] = inside[0] + self.turn, heights[0] + self.advance
             if np.all(np.diff(inside) > 0.0):
@@ -98,6 +100,16 @@ class Chain:
                 if squares <= self.squares + AS_LIKELY * count or rounded or places is self.places:
                     return replace(tried, squares=squares)
         return self
+
+    def _rounded_heights(self, digit: float) -> Array:
+        """Its heights that are free, as numbers of so many digits."""
+        free = self.deviations[len(self.places) :] > 0.0
+        free[[0, -1]] &= [not slope for slope in self.slopes]
+        heights = np.where(free, np.round(self.heights / digit) * digit, self.heights)
+        for i, name in enumerate(self.names):
+            if not name:
+                heights[i + 1] = heights[i]
+        return heights
 
     def peak(self, move: int, nu: int) -> float:
         """The greatest magnitude of a derivative in a move, by the master."""
@@ -183,6 +195,8 @@ class Outline:
         Between which places the moves are.
     turn, advance
         Of rows of a whole turn, which the moves go round: its length, and what they advance by; else 0.
+    slopes
+        The velocities of the lines on which the first and the last place are, where their heights are known.
     """
 
     x: Array
@@ -194,6 +208,7 @@ class Outline:
     bounds: tuple[float, float]
     turn: float = 0.0
     advance: float = 0.0
+    slopes: tuple[float, float] = (0.0, 0.0)
 
     def chains(self, resting: float = 0.0) -> list[Chain]:
         """Chains of standard laws near the rows, the nearest first; they rest about so long where they turn."""
@@ -229,7 +244,9 @@ class Outline:
         inside = np.flatnonzero((self.x >= ends[0]) & (self.x <= ends[1]))
         some = self.of_rows(inside[:: max(1, len(inside) // _RANKED_BY)])
         heights = self.heights[move : move + 2]
-        single = replace(some, places=ends, heights=heights, known=np.ones(2, dtype=bool), turn=0.0)
+        last = move == len(self.places) - 2
+        slopes = self.slopes[0] if move == 0 else 0.0, self.slopes[1] if last else 0.0
+        single = replace(some, places=ends, heights=heights, known=np.ones(2, dtype=bool), turn=0.0, slopes=slopes)
         wide = 0.4 * float(np.ptp(ends))
         single = replace(single, bounds=(ends[0] - wide, ends[1] + wide))
         costs = [(single.fitted((name,), _interpolated, _ROUGH_STEPS).squares, name) for name in catalogue]
@@ -248,6 +265,7 @@ class Outline:
         spread[:count, :count] = np.eye(count)
         for column, i in enumerate(free):
             spread[count + np.flatnonzero(source == i), count + column] = 1.0
+        spread[[count, -1], [0, count - 1]] += self.slopes
         ends = np.concatenate([np.clip(self.places, *self.bounds), self.heights[source]])
         if self.turn:
             spread[count - 1, 0], ends[count - 1] = 1.0, ends[0] + self.turn
@@ -260,7 +278,9 @@ class Outline:
             scaled = normal + np.diag(damping * np.diag(normal) + np.finfo(np.float64).tiny)
             step = np.linalg.lstsq(scaled, -side, rcond=None)[0]
             tried = ends + spread @ step
-            tried[:count] = np.clip(tried[:count], *self.bounds)
+            inside = np.clip(tried[:count], *self.bounds)
+            tried[[count, -1]] += self.slopes * (inside - tried[:count])[[0, -1]]
+            tried[:count] = inside
             tried[count - 1] = tried[0] + self.turn if self.turn else tried[count - 1]
             if np.all(np.diff(tried[:count]) > _APART * np.ptp(self.places)):
                 new_left, slopes = self._missed(names, laws, tried)
@@ -279,7 +299,9 @@ class Outline:
         variance = max(squares / max(len(left) - len(step), 1), 1.0)
         deviations = np.sqrt(variance * np.maximum(np.diag(spread @ np.linalg.pinv(matrix.T @ matrix) @ spread.T), 0.0))
         free_ends = spread.shape[1]
-        return Chain(names, ends[:count], ends[count:], squares, free_ends, deviations, self.turn, self.advance)
+        return Chain(
+            names, ends[:count], ends[count:], squares, free_ends, deviations, self.turn, self.advance, self.slopes
+        )
 
     def _missed(self, names: Sequence[str], laws: _Laws, ends: Array) -> tuple[Array, Array]:
         """How far a chain misses the rows, in deviations of their noise, and its derivatives by places and heights."""
@@ -295,7 +317,9 @@ class Outline:
         edges = np.searchsorted(at, places, side="right")
         y, slopes = np.empty(len(at)), np.zeros((len(at), 2 * count))
         for rows, i in ((slice(None, edges[0]), 0), (slice(edges[-1], None), count - 1)):
-            y[rows], slopes[rows, count + i] = heights[i], 1.0
+            slope = self.slopes[i > 0]
+            y[rows] = heights[i] + slope * (at[rows] - places[i])
+            slopes[rows, i], slopes[rows, count + i] = -slope, 1.0
         for i, name in enumerate(names):
             rows = slice(edges[i], edges[i + 1])
             if not name:

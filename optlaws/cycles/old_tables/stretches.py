@@ -91,27 +91,32 @@ def seam_of(heights: Array, room: float) -> float:
 
 def stretches_of(motion: FittedMotion) -> Iterator[Stretch]:
     """The dwells and moves of a fitted motion, from its first place to its last one."""
+    known = ~motion.samples.suspects
+    x, y = motion.samples.places[known], motion.samples.heights[known]
+    for part in _parts_of(motion):
+        # of a law of its own, how far the nearest standard law is off
+        law = part.law if isinstance(part.law, str) or not part.nearest else part.nearest
+        inside = (x >= part.start) & (x <= part.stop)
+        apart = np.abs(position(replace(part, law=law), x[inside]) - y[inside])
+        yield part if law is None else replace(part, distance=float(apart.max(initial=0.0)))
+
+
+def _parts_of(motion: FittedMotion) -> Iterator[Stretch]:
     x, y = motion.samples.places, motion.samples.heights
     least, least_rise = SHORTEST * float(np.ptp(x)), VALUE_ROUNDING * float(np.ptp(y))
     at, level, corner = float(x[0]), motion.moves[0].position_before(float(x[0])), False
     for move in motion.moves:
         start = move.start if move.start - at > least else at
         if start > at:
-            yield _between(at, start, level, move.low, least_rise, corner=corner or move.is_corner)
-        corner = move.is_corner
-        if corner:
+            yield _between(at, start, level, move.low, least_rise, corner=corner or move.corners[0])
+        corner = move.corners[1]
+        if move.is_corner:
             at, level = start, move.low
             continue
         stop = move.stop if float(x[-1]) - move.stop > least else float(x[-1])
+        kind: StretchKind = "rise" if move.high > move.low else "return"
         law = move.name or _law_of(move)
-        part = Stretch(
-            "rise" if move.high > move.low else "return", start, stop, move.low, move.high, law, move.nearest,
-            peaks=move.peaks,
-        )  # fmt: skip
-        off = part if move.name or not move.nearest else replace(part, law=move.nearest)
-        inside = (x >= start) & (x <= stop) & ~motion.samples.suspects
-        apart = np.abs(position(off, x[inside]) - y[inside])
-        yield replace(part, distance=float(apart.max(initial=0.0)))
+        yield Stretch(kind, start, stop, move.low, move.high, law, move.nearest, peaks=move.peaks)
         at, level = stop, move.high
     if float(x[-1]) > at:
         yield _between(
