@@ -154,7 +154,7 @@ class _Parts(NamedTuple):
     far: list[float]
 
     def criterion(self, rows: int) -> float:
-        """Schwarz's criterion."""
+        """Schwarz's criterion for these rows."""
         return criterion(self.squares, self.free, rows)
 
     @classmethod
