@@ -20,6 +20,10 @@ _NARROWER = 0.9
 _BITS = 192
 #: terms of Taylor polynomials; how short a cell is cut no further, and after how many none is
 _TERMS, _LEAST, _MOST = 24, Fraction(1, 2**70), 1 << 12
+#: after so many an integral is not enclosed: kinks that these do not find are many times closer than they can be told
+_MOST_OF_INTEGRAL = 1 << 10
+#: terms that tell whether a function has a kink in a cell: it has no more of them then
+_KINKED = 3
 
 #: a function by its Taylor series; coefficients beyond what it is smooth to are not finite
 Smooth = Callable[[arb_series], arb_series]
@@ -146,13 +150,20 @@ def cells(
         Whether a cell need not be cut, from how far the functions are off their polynomials alone, and its length:
         where it must be, no polynomial is computed.
     """
-    left, count = [ends], 0
+    left, count = [(*ends, False)], 0
     while left:
-        low, high = left.pop()
+        low, high, kinked = left.pop()
         middle, half = (low + high) / 2, ball((high - low) / 2)
-        with series_length(terms + 1):
-            around, count = functions(variable([ball(low).union(ball(high)), half])), count + 1
-            rests, last = [_rest(each, terms) for each in around], high - low < shortest or count > most
+        where, count = [ball(low).union(ball(high)), half], count + 1
+        # a part of a cell with a kink has mostly one too, for which a few terms are enough
+        for length in (_KINKED, terms + 1) if kinked else (terms + 1,):
+            with series_length(length):
+                around = functions(variable(where))
+            kinked = not any(each[_KINKED - 1].is_finite() for each in around)
+            if kinked:
+                break
+        with series_length(length):
+            rests, last = [_rest(each, length - 1) for each in around], high - low < shortest or count > most
             parts: list[Taylor] | None = None
             if last or by_rests([rest for _, rest in rests], high - low):
                 about = functions(variable([ball(middle), half]))
@@ -160,7 +171,7 @@ def cells(
         if parts is not None and (last or enough(parts, high - low)):
             yield (low, high), parts
         else:
-            left += [(low, middle), (middle, high)]
+            left += [(low, middle, kinked), (middle, high, kinked)]
 
 
 def _rest(around: Any, terms: int) -> tuple[int, arb]:
@@ -297,7 +308,8 @@ def integrals(
 
         wide = [[arb_poly(term) for term in column] for column in columns]
         shortest = (high - low) / 2**bits
-        several = cells(functions, arb_series, ends, shortest, terms=max(8, bits // 2), by_rests=enough)
+        most, count = _MOST_OF_INTEGRAL, max(8, bits // 2)
+        several = cells(functions, arb_series, ends, shortest, terms=count, most=most, by_rests=enough)
         for (start, stop), parts in several:
             cell = ball((start + stop - 2 * middle) / (high - low)), ball((stop - start) / (high - low))
             known = parts

@@ -32,6 +32,7 @@ from optlaws import (
     synthesize,
 )
 from optlaws.verification import enclosures, exact_bound, verify
+from tests.internals.formulas import of_text
 from tests.internals.laws import (
     FractionalSegment,
     HarmonicSegment,
@@ -41,7 +42,17 @@ from tests.internals.laws import (
     SineSegment,
 )
 from tests.internals.synthesis import rounded_down, rounded_up
-from tests.internals.verification import ExactLaw, between, enclosed, lower, near, real_roots, upper
+from tests.internals.verification import (
+    ExactLaw,
+    between,
+    enclosed,
+    integrals,
+    lower,
+    near,
+    real_roots,
+    series_of,
+    upper,
+)
 
 
 def peaks(law: PolynomialLaw) -> dict[str, float]:
@@ -429,3 +440,17 @@ def test_a_polynomial_without_slope_is_its_own_extremes() -> None:
     least, greatest = between(fmpq_poly([1, 0, -2, 0, 1]), fmpq(-2), fmpq(2))
     assert least.contains(0)
     assert greatest.contains(9)
+
+
+def test_a_kink_is_searched_for_with_a_few_terms() -> None:
+    """A cell with a kink has no more; the whole series there made torques with losses slow to verify."""
+    lengths = list[int]()
+
+    def bent(k: flint.arb_series) -> list[flint.arb_series]:
+        lengths.append(ctx.cap)
+        return [series_of(of_text("abs(k - 0.3)").formula, {"k": k})]
+
+    [area] = integrals(bent, [[fmpq_poly([1])]], (Fraction(0), Fraction(1)), 60)
+    assert area.contains(arb(fmpq(29, 100)))
+    assert float(area.rad()) < 1e-15
+    assert len([length for length in lengths if length > 3]) < len(lengths) / 2
