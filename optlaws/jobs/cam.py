@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from math import degrees
+from math import ceil, degrees, floor, inf, log10
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -65,6 +65,7 @@ from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.optimisation.objectives import kind_of
 from optlaws.cycles.report import objective_unit
 from optlaws.cycles.specification.limits import LimitTaken
+from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.specification.segments import OPTIMAL
 from optlaws.cycles.usual_law import usual_cycle
 from optlaws.echo import shortened
@@ -88,6 +89,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _SIZE_MET = 1e-7  # of a radius: a size that is proven to so much is the least one
+_SPRINGS = 12  # how often laws and the spring that they need are sought in turn, each to four digits
 _STIFFER = 0.5  # per cent: what a spring is stiffer than with the usual law, from which on that is said
 #: before the names of the files of the return cam
 _RETURN = "return-"
@@ -188,17 +190,41 @@ class CamResult:
     spec: CamProblemFile
     known: Plan | None = None
     bound: float | None = None
+    counted: bool = False  #: whether the spring of the drive is the least one of these laws
 
     @classmethod
     def of_file(cls, spec: CamProblemFile) -> CamResult:
         """The cam of a problem file, with its return cam, its forces and its cutters checked."""
-        result = cls(spec)
+        result = cls(spec).with_spring
         result.second, result.loads  # noqa: B018 - they are computed
         if spec.cutter_radius is not None:
             result.cam.cutter_path(spec.cutter_radius)
         for each in spec.file:
             result.cam.outline(each.curve, each.cutter_radius)
         return result
+
+    @property
+    def with_spring(self) -> CamResult:
+        """The cam of the laws that have least force or power with the least spring that these laws need, where one is.
+
+        That of the usual law comes first; then that of the laws that are best with the last one, until it is the same.
+        Where two springs take turns, one that is as strong as both presses the follower.
+        """
+        spec, units = self.spec, SPRING_UNITS[self.spec.cycle.axis][::-1]
+        sought = any(map(is_optimal, spec.cycle.segments)) and kind_of(spec.cycle.minimise)[0].is_driven
+        if not sought or not self._needs_spring:
+            return self
+        best, pressing, last = self, self if self.usual is None else self.usual, (-inf, -inf)
+        for turns in range(_SPRINGS):
+            spring = pressing.least_spring
+            needed = _rounded_up(spring.stiffness), _rounded_up(spring.preload)
+            sizes = needed if turns < _SPRINGS // 2 else (max(needed[0], last[0]), max(needed[1], last[1]))
+            if sizes == last:
+                break
+            last, texts = sizes, (f"{size:.{DIGITS}g} {unit}" for size, unit in zip(sizes, units, strict=True))
+            drive = {**self._linear_drive, **dict(zip(("stiffness", "preload"), texts, strict=True))}
+            best = pressing = CamResult(replace(spec, motion=replace(spec.motion, drive=drive)))
+        return replace(best, counted=all(each >= 0.99 * size for each, size in zip(needed, last, strict=True)))
 
     @kept_property
     def sought(self) -> BestCam | BestPrimeCircle | BestOffset | LeastPrimeCircle | None:
@@ -347,15 +373,7 @@ class CamResult:
     @kept_property
     def laws(self) -> Section:
         """What is least, with its bound and its status, among which laws it was found, and what is taken of limits."""
-        plan, known = self.plan, list[str]()
-        if self._needs_spring and plan.solutions and kind_of(plan.minimise)[0].is_driven:
-            spring, (force, stiffness) = self.least_spring, SPRING_UNITS[self.cam.displacement.axis]
-            known.append(
-                f"The {plan.minimise} is without the spring below: to count it, give the drive the entries "
-                f'stiffness = "{spring.stiffness:.{DIGITS}g} {stiffness}" and preload = "{spring.preload:.{DIGITS}g} '
-                f'{force}".'
-            )
-        return replace(_laws_section(plan, self._best, known), data=self.of_laws)
+        return replace(_laws_section(self.plan, self._best), data=self.of_laws)
 
     @kept_property
     def of_laws(self) -> dict[str, Any]:
@@ -512,7 +530,7 @@ class CamResult:
         """The sentence on the spring with which the forces are computed; empty where none is looked for."""
         if self.spec.spring is None:
             return ""
-        if self._needs_spring:
+        if self._needs_spring or self.counted:
             return "The least spring, which stands below, presses the follower on the cam here."
         return "The spring of the drive presses the follower on the cam here, not the least one, which stands below."
 
@@ -622,7 +640,13 @@ def _proven(spec: CamOfMotion, plan: Plan) -> dict[str, Any]:
     return {"unit": "SI", "cam": spec.to_dict(), "solutions": steady([each.to_dict() for each in plan.solutions])}
 
 
-def _laws_section(plan: Plan, best: Sequence[Row] = (), notes: Sequence[str] = ()) -> Section:
+def _rounded_up(value: float) -> float:
+    """The least number of four digits that is no less."""
+    steps = 10.0 ** (3 - floor(log10(value))) if value > 0.0 else 1.0
+    return ceil(value * steps) / steps
+
+
+def _laws_section(plan: Plan, best: Sequence[Row] = ()) -> Section:
     """What is least with its bound and its status, or rows that are `best`, the search space, given laws and limits."""
     laws = {each.name: getattr(each.stretch.given, "law", OPTIMAL) for each in plan.peaks}
     given = [f"{name} {shortened(law)}" for name, law in laws.items() if law != OPTIMAL]
@@ -630,7 +654,6 @@ def _laws_section(plan: Plan, best: Sequence[Row] = (), notes: Sequence[str] = (
         *([f"Search space: {plan.search_space}."] if plan.search_space else []),
         *([f"Given laws: {'; '.join(given)}."] if given else []),
         *([f"Limits: {'; '.join(map(_rounded, plan.limits_taken))}."] if plan.limits_taken else []),
-        *notes,
     ]
     rows = list(best)
     if not rows and plan.solutions:
