@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from optlaws import Cycle, Dwell, MotionLaw, Return, Rise, catalogue, read_cycle_table, split_table
+from optlaws import Cycle, Dwell, InputError, MotionLaw, Return, Rise, catalogue, read_cycle_table, split_table
 from tests.cycles.test_cam_files import units_of
 from tests.cycles.test_old_motions import valve_lift
 from tests.internals.cycles import law_of_move
@@ -94,14 +94,36 @@ def test_a_corner_stays_and_the_move_at_it_is_bettered() -> None:
     lift = np.where(u <= 60.0, 3.05 * np.sin(np.pi / 2.0 * u / 60.0), np.where(u < 80.0, 3.05 * (80.0 - u) / 20.0, 0.0))
     old = split_table(np.arange(361.0).tolist(), lift.tolist(), tolerance=0.001)
     new = old.bettered(0.1)
-    rises = [(part, was) for part, was in zip(new.moves, old.moves, strict=True) if part.kind == "rise"]
+    rises = [part for part in new.moves if part.line is None and part.corner is None]
     assert len(rises) == 2
-    for part, was in rises:
+    for part, was in zip(rises, (part for part in old.moves if part.line is None), strict=True):
         law = law_of_move(part)
         assert law.b(0.0) == pytest.approx(np.pi / 2.0, rel=1e-3)
         assert abs(law.b(1.0)) < 1e-9
         # of any law from that velocity to rest over its stroke
         assert 1.0 <= law.constants.C.value < 0.92 * law_of_move(was).constants.C.value
+    assert new.corners == pytest.approx([0.0, 120.0, 180.0, 300.0])
+    with pytest.raises(InputError, match=r"jumps at 0 deg, 120 deg.*: a corner stays, as no law .* is so near"):
+        new.cycle(speed="60 rpm")
+
+
+def test_a_corner_between_a_line_and_a_move_is_taken_away_within_the_tolerance_that_is_named() -> None:
+    x, law = np.arange(0.0, 360.1, 0.5), catalogue["3-4-5 polynomial"].law
+    y = np.clip((x - 30.0) / 20.0, 0.0, 1.0) + 30.0 * law(np.clip((x - 50.0) / 80.0, 0.0, 1.0))
+    old = split_table(x, np.round(y - 31.0 * QUINTIC(np.clip((x - 180.0) / 110.0, 0.0, 1.0)), 4), digit=1e-4)
+    small = old.bettered(0.02)
+    lift = next(part for part in small.moves if part.reason and part.solution is not None)
+    assert small.corners == pytest.approx([50.0], abs=1e-2)
+    with pytest.raises(InputError, match=r"jumps at 50 deg.* mm none stays"):
+        small.cycle(speed="60 rpm")
+    smooth = old.bettered(lift.sufficient_tolerance)
+    assert smooth.corners == ()
+    at = np.linspace(0.0, 360.0, 36001)
+    assert 0.02 < np.abs(smooth.at(at) - old.at(at)).max() <= lift.sufficient_tolerance * (1.0 + 1e-9)
+    rise, _ = smooth.gains(old)
+    assert np.isnan(rise.shares(2)[0])  # it was infinite at the corner
+    assert rise.new[2] <= 1.2 * rise.old[2] * (1.0 + 1e-9)
+    assert smooth.cycle(speed="60 rpm").peak(1) > 0.0
 
 
 def test_a_tolerance_that_is_too_small_is_named_with_one_that_is_enough() -> None:
@@ -152,20 +174,32 @@ def test_a_cycle_of_least_acceleration_has_no_better_one_after_its_export(name: 
     assert old.at(at) == pytest.approx(1e3 * np.asarray(cycle.at_angle(at % 360.0)), abs=1e-3)
 
 
-def test_corners_of_a_constant_velocity_have_a_remedy() -> None:
-    """Parabolas about them, within the tolerance, which the words give with their acceleration."""
+@pytest.mark.parametrize(("begin", "order"), [(40.0, 3), (0.0, 2)])
+def test_corners_between_lines_are_taken_away(begin: float, order: int) -> None:
+    """Of a rest, two ramps of other velocity, a crest between lines and a fall, also where the table begins."""
     x = np.arange(0.0, 360.1, 0.5)
-    table = split_table(
-        x, np.round(0.26 * (np.clip(x, 40.0, 120.0) - 40.0) - 20.8 * QUINTIC(np.clip((x - 200.0) / 100.0, 0, 1)), 4)
+    nodes = begin + np.array([0.0, 60.0, 100.0, 160.0])
+    y = np.interp(x, nodes, [0.0, 8.0, 18.0, 2.0]) - 2.0 * QUINTIC(np.clip((x - nodes[-1] - 40.0) / 80.0, 0.0, 1.0))
+    table = split_table(x, np.round(y, 4), digit=1e-4)
+    assert table.corners == pytest.approx(nodes, abs=1e-2)
+    with pytest.raises(InputError, match="modernise it within a tolerance"):
+        table.cycle(speed="100 rpm")
+    smooth = table.bettered(0.05, order=order)
+    assert smooth.corners == ()
+    at = np.linspace(0.0, 360.0, 36001)
+    apart = np.abs(smooth.at(at) - table.at(at))
+    assert apart.max() == pytest.approx(0.05, rel=1e-4)
+    # each corner is in the middle of its width, as far off as the tolerance allows
+    assert np.interp(table.corners, at, apart) == pytest.approx(0.05, rel=1e-2)
+    jumps = np.abs(np.diff([0.0, 8.0 / 60.0, 0.25, -16.0 / 60.0, 0.0]))
+    most = jumps.max() ** 2 / 0.05 * (1.0 / 8.0 if order == 2 else 9.0 / 64.0)
+    bends = [part for part in smooth.moves if part.corner is not None]
+    found = max(
+        abs(part.stroke) / (part.stop - part.start) ** 2 * law_of_move(part).constants.C.value for part in bends
     )
-    better = table.bettered(0.05)
-    move = better.moves[0]
-    wide, off = move.rounding, move.sufficient_tolerance
-    assert (wide, off) == pytest.approx((8.0 * 0.05 / 0.26, 0.05), rel=1e-4)
-    at = np.linspace(-0.5 * wide, 0.5 * wide, 1001)
-    parabola = 0.13 / wide * (at + 0.5 * wide) ** 2
-    assert np.abs(parabola - 0.26 * np.maximum(at, 0.0)).max() == pytest.approx(off, rel=1e-4)
-    words = better.reason_in_words(move)
-    assert words.endswith(
-        "a parabola over 1.54 deg about each is within 0.05 mm and has an acceleration of 0.169 mm/deg²"
-    )
+    assert found == pytest.approx(most, rel=1e-3)
+    cycle = smooth.cycle(speed="100 rpm")
+    values = cycle.at_angle(at % 360.0, 1)
+    assert np.abs(np.diff(values)).max() <= 1.1 * cycle.peak(2) * 0.6 / 36000
+    kinds = [gain.kind for gain in smooth.gains(table)]
+    assert kinds == ["return"]

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -335,7 +336,7 @@ def test_a_ramp_of_constant_velocity_ends_where_a_law_from_rest_begins(
     y -= (22.0 + ramp) * QUINTIC(np.clip((x - 180.0) / 110.0, 0.0, 1.0))
     y = np.round(y + np.random.default_rng(4).normal(0.0, noise, len(x)), 4)
     table = split_table(x, y[::-1] if mirrored else y, digit=1e-4)
-    kinds = [(part.kind, part.law) for part in table.stretches]
+    kinds: list[tuple[str, Any]] = [(part.kind, part.law) for part in table.stretches]
     places = [begin, lift, end, 180.0, 290.0]
     if mirrored:
         there = {"rise": "return", "return": "rise", "dwell": "dwell"}

@@ -5,16 +5,19 @@ from __future__ import annotations
 from collections.abc import Container, Sequence
 from dataclasses import replace
 from functools import lru_cache
+from itertools import pairwise
 from math import inf, isfinite, nan
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial import Polynomial
 
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.standard import JUMP
 from optlaws.cycles.old_tables.stretches import Stretch, law_of_move
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.laws import MotionLaw
+from optlaws.laws.catalogue.tables.curve_pieces import law_of_curve
 from optlaws.numbers import Array
 from optlaws.numerics.bernstein import greatest_difference
 from optlaws.synthesis.problem.problem import Problem
@@ -39,6 +42,8 @@ _APART = 2e-3  # of a move: places that are nearer to a new one give way to it
 _ROUNDS = 15
 _LOOKS = 800  # places at which the difference of two laws is looked at for its extremes
 _FREE = 4  # the order up to which derivatives are left free at one end and given at the other
+#: by which share of a jump of velocity it has changed at a share of the width about a corner
+_BENDS = Polynomial([0.0, 1.0]), Polynomial([0.0, 0.0, 3.0, -2.0])
 _MOST = 0.25  # of a stroke: tolerances beyond it are none
 _HARDLY_KNOWN = 4.0  # times the least that an old peak may be: where it may be more the table does not tell it
 
@@ -112,10 +117,11 @@ def bettered(stretches: Sequence[Stretch], room: float, order: int, degree: int)
 
     A new law begins and ends with the position and the velocity of the old one. Beside a dwell or constant velocity its
     further derivatives, as many as its order says, are 0; where two moves go on into each other they are those of both
-    new laws, by the move of the greater acceleration; at a corner they are free.
+    new laws, by the move of the greater acceleration. At a corner beside a dwell or constant velocity it has the
+    velocity of this, where the tolerance allows it, and none is left; else its further derivatives are free there.
     """
     count = len(stretches)
-    moves = [i for i, part in enumerate(stretches) if part.law is not None]
+    moves = [i for i, part in enumerate(stretches) if part.law is not None and part.corner is None]
     moves.sort(key=lambda i: -_acceleration(stretches[i]))
     # what these have where they go on into other moves is that of their old laws
     as_before = {i for i in moves if all(stretches[j % count].line is not None for j in (i - 1, i + 1))}
@@ -125,9 +131,10 @@ def bettered(stretches: Sequence[Stretch], room: float, order: int, degree: int)
         for i in moves:
             part = _better(better, known, i, room, order, degree, as_before=i in as_before)
             # the first reason is that of its own tolerance, not of what its neighbours have
-            better[i] = reasons.setdefault(i, part) if part.reason else part
+            unchanged = part.solution is None
+            better[i] = reasons.setdefault(i, part) if unchanged else part
             known.add(i)
-            if part.reason and i not in as_before:
+            if unchanged and i not in as_before:
                 as_before.add(i)
                 break
         else:
@@ -153,38 +160,103 @@ def _better(
     old, share = law_of_move(part), room / abs(part.stroke)
     what = nothing_to_better(old)
     if what:
-        wide, off = _rounded_corners(stretches, number, room)
-        return replace(part, reason=f"it is {what}", sufficient_tolerance=off, rounding=wide)
-    ends = _ends(stretches, known, number, order, as_before=as_before)
+        return replace(part, reason=f"it is {what}")
+    ends = _ends(stretches, known, number, order, as_before=as_before, corners=True)
+    smooth = _ends(stretches, known, number, order, as_before=as_before, corners=False)
+    if smooth != ends:
+        without = _with_least(part, old, share, order, degree, smooth)
+        if without.solution is not None:
+            return without
+        stays = f"a corner stays, as {without.reason}"
+        enough = abs(part.stroke) * _enough(old, share, order, degree, smooth)
+        return replace(_with_least(part, old, share, order, degree, ends), reason=stays, sufficient_tolerance=enough)
     if any(abs(value) >= old.constants.C.value * (1.0 - _LEAST_GAIN) for state in ends for value in state[2:3]):
         return replace(part, reason="its acceleration is greatest where it goes on into the next move")
+    better = _with_least(part, old, share, order, degree, ends)
+    if better.solution is not None:
+        return better
+    return replace(better, sufficient_tolerance=abs(part.stroke) * _enough(old, share, order, degree, ends))
+
+
+def _with_least(part: Stretch, old: MotionLaw, share: float, order: int, degree: int, ends: Ends) -> Stretch:
+    """A move with the law of least acceleration between its ends, or why it keeps its law."""
     try:
         solution = _least(old, share, order, degree, ends)
-        why = f"none of order {order} and degree {degree} so near has less"
     except InfeasibleProblem:
-        solution, why = None, f"no law of order {order} and degree {degree} is so near"
+        return replace(part, reason=f"no law of order {order} and degree {degree} is so near")
     except SolverFailure:
-        solution, why = None, f"the search for a law of order {order} and degree {degree} so near failed"
-    if solution is not None:
-        return replace(part, law=solution.law, solution=solution, peaks=())
-    return replace(part, reason=why, sufficient_tolerance=abs(part.stroke) * _enough(old, share, order, degree, ends))
+        return replace(part, reason=f"the search for a law of order {order} and degree {degree} so near failed")
+    if solution is None:
+        return replace(part, reason=f"none of order {order} and degree {degree} so near has less")
+    return replace(part, law=solution.law, solution=solution, peaks=())
 
 
-def _rounded_corners(stretches: Sequence[Stretch], number: int, room: float) -> tuple[float, float]:
-    """Over how much of the master parabolas round the corners at the ends of a move, and how far off; 0 without such.
+def without_corners(stretches: Sequence[Stretch], room: float, order: int) -> list[Stretch]:
+    """Stretches with the corners between lines taken away, each within a tolerance of it.
 
-    A velocity that changes by v evenly over a width w is at most v w / 8 off the corner.
+    Over a width w about a corner the velocity changes by v evenly, at most v w/8 off, or from order 3 on with
+    continuous acceleration: by v (3u² - 2u³), at most 3 v w/32 off.
     """
-    around = [stretches[i % len(stretches)] for i in (number - 1, number, number + 1)]
-    slopes = []
-    for part in around:
-        states = [(0.0, 0.0)] * 2 if part.law is None else law_of_move(part).boundary_values(2)
-        slopes.append([part.stroke / (part.stop - part.start) * state[1] for state in states])
-    jump = max(abs(slopes[1][0] - slopes[0][1]), abs(slopes[2][0] - slopes[1][1]))
-    if jump <= JUMP * max(map(abs, slopes[1])):
-        return 0.0, 0.0
-    wide = min(8.0 * room / jump, *(part.stop - part.start for part in around))
-    return wide, jump * wide / 8.0
+    lines, bends = list(stretches), list[Stretch]()
+    shape = _BENDS[order > 2]
+    for i, after in enumerate(stretches):
+        before = stretches[i - 1]
+        if before.line is None or after.line is None:
+            continue
+        jump = after.line - before.line
+        if abs(jump) <= JUMP * max(abs(before.line), abs(after.line)):
+            continue
+        wide = min(_bend_width(shape, jump, room), before.stop - before.start, after.stop - after.start)
+        lines[i - 1] = _shortened(lines[i - 1], 0.0, 0.5 * wide)
+        lines[i] = _shortened(lines[i], 0.5 * wide, 0.0)
+        bends += _bend(after.start, after.low, wide, before.line + jump * shape, stretches)
+    long = [part for part in lines if part.stop - part.start > _SAME * (stretches[-1].stop - stretches[0].start)]
+    return sorted([*long, *bends], key=lambda part: part.start)
+
+
+def _bend_width(shape: Polynomial, jump: float, room: float) -> float:
+    """Over which width a velocity changes by a jump, at most a tolerance off the corner, which it is in the middle."""
+    return room / (float(shape.integ()(0.5)) * abs(jump))
+
+
+def _bend_jerk(jump: float, room: float) -> float:
+    """The greatest jerk where a velocity changes by a jump with continuous acceleration."""
+    return abs(jump) * float(_BENDS[1].deriv(2)(0.0)) / _bend_width(_BENDS[1], jump, room) ** 2 if jump else 0.0
+
+
+def _shortened(part: Stretch, first: float, last: float) -> Stretch:
+    """A line without so much of its start and its end."""
+    slope = part.line or 0.0
+    return replace(
+        part,
+        start=part.start + first,
+        stop=part.stop - last,
+        low=part.low + first * slope,
+        high=part.high - last * slope,
+    )
+
+
+def _bend(
+    corner: float, height: float, wide: float, velocity: Polynomial, stretches: Sequence[Stretch]
+) -> list[Stretch]:
+    """The rises and returns of a velocity, by shares of a width about a corner; those before the turn at its end."""
+    position = height - 0.5 * wide * velocity(0.0) + wide * velocity.integ()
+    derivatives = position, velocity, velocity.deriv() / wide
+    turn, advance = stretches[-1].stop - stretches[0].start, stretches[-1].high - stretches[0].low
+    roots = np.atleast_1d(velocity.roots())
+    turns = roots.real[(np.abs(roots.imag) < _SAME) & (roots.real > _SAME) & (roots.real < 1.0 - _SAME)].tolist()
+    nodes = [0.0, *([0.5] if corner in (stretches[0].start, stretches[-1].stop) else []), *turns, 1.0]
+    parts = []
+    for first, last in pairwise(sorted(nodes)):
+        before = corner + wide * (last - 0.5) <= stretches[0].start
+        start, stop = (corner + wide * (u - 0.5) + before * turn for u in (first, last))
+        low, high = (float(position(u)) + before * advance for u in (first, last))
+        law = law_of_curve(
+            [first * wide, last * wide], high - low, [velocity.degree() + 1],
+            lambda x, _, nu: np.asarray(derivatives[nu](x / wide)),
+        )  # fmt: skip
+        parts.append(Stretch("rise" if high > low else "return", start, stop, low, high, law, corner=corner))
+    return parts
 
 
 def nothing_to_better(old: MotionLaw) -> str:
@@ -199,8 +271,13 @@ def nothing_to_better(old: MotionLaw) -> str:
     return "at constant acceleration, without jerk" if old.constants.J.value == 0.0 else ""
 
 
-def _ends(stretches: Sequence[Stretch], known: Container[int], number: int, order: int, *, as_before: bool) -> Ends:
-    """The states at the ends of a move: position and velocity, and as many further derivatives as are known."""
+def _ends(
+    stretches: Sequence[Stretch], known: Container[int], number: int, order: int, *, as_before: bool, corners: bool
+) -> Ends:
+    """The states at the ends of a move: position and velocity, and as many further derivatives as are known.
+
+    Without corners its velocity is that of the line beside it.
+    """
     part = stretches[number]
     old, length = law_of_move(part), part.stop - part.start
     same = _SAME * old.constants.B.value
@@ -216,6 +293,8 @@ def _ends(stretches: Sequence[Stretch], known: Container[int], number: int, orde
             goes_on = [size * ratio**nu * value for nu, value in enumerate(values)]
         velocity = 0.0 if abs(state[1]) <= same else state[1]
         corner = abs(velocity - goes_on[1]) > same
+        if corner and not corners and beside.line is not None:
+            velocity, corner = goes_on[1], False
         further = state[2:] if corner or (as_before and beside.line is None) else goes_on[2:]
         open_end = corner or not (beside.line is not None or as_before or other == number or other in known)
         states.append((float(place), velocity, *([] if open_end and order <= _FREE else further))[:order])
@@ -240,11 +319,14 @@ def _least(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) ->
     It is found by cutting planes: windows at few places, which others join where a law is too far. They have
     the tolerance itself, so that the bound of the solution is that of all laws within it; less by twice what rounding
     leaves a law beyond it at last. Its jerk is bounded by that of the old law, or by what takes its jumps at the ends
-    over a part of the move.
+    over a part of the move, and corners over the width that the tolerance allows. The acceleration of an old law with a
+    corner that the new one has not is infinite.
     """
-    C, J = old.constants.C.value, old.constants.J.value
-    jumps = [abs(was[2] - now) for was, state in zip(old.boundary_values(3), ends, strict=True) for now in state[2:3]]
-    jerk = _JERK * max([J, *(jump / _RAMP for jump in jumps)])
+    C, J, before = old.constants.C.value, old.constants.J.value, old.boundary_values(3)
+    corners = [abs(was[1] - state[1]) for was, state in zip(before, ends, strict=True)]
+    jumps = [abs(was[2] - now) for was, state in zip(before, ends, strict=True) for now in state[2:3]]
+    jerk = _JERK * max([J, *(jump / _RAMP for jump in jumps), *(_bend_jerk(jump, share) for jump in corners)])
+    C = inf if max(corners) > _SAME * old.constants.B.value else C
     same = min(len(state) for state in ends)
     known = [
         via(quantity, value, at=state[0]) for state in ends for quantity, value in zip("cj", state[same:], strict=False)

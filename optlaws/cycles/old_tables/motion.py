@@ -473,12 +473,13 @@ class _Region:
             if not name:
                 continue
             low, high = map(float, chain.places[i : i + 2])
+            slopes = chain.slopes[0] if i == 0 else 0.0, chain.slopes[1] if i == len(chain.names) - 1 else 0.0
             most = []
             for nu in (1, 2, 3):
                 standard = (1.0 + _ROUNDED_LAW) * max(
                     each.peak(i, nu) * (1.0 + _UNCERTAIN * each.uncertainty(i, nu)) for each in chains
                 )
-                if any(each[i] for each in jumps[: nu - 1]):
+                if any(each[i] for each in jumps[: nu - 1]) or (nu > 1 and any(slopes)):
                     standard = np.inf
                 most.append(max(standard, most_peak(simple, nu, low, high) if simple else 0.0))
             at = self._seam_within(low, high)
@@ -486,7 +487,6 @@ class _Region:
                 yield from self._parts((spline_of(chain, i),), [low, at, high], ["", ""], variance, most)
                 continue
             first, last = map(float, chain.heights[i : i + 2])
-            slopes = chain.slopes[0] if i == 0 else 0.0, chain.slopes[1] if i == len(chain.names) - 1 else 0.0
             peaks = [self._interval(nu, low, high, most[nu - 1], variance) for nu in (1, 2, 3)]
             yield FittedMove(low, high, first, last, tuple(fits), name, name, tuple(peaks), slopes)
 

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from optlaws.cycles.old_tables.better_laws import gain
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.stretches import Stretch, law_of_move
 from optlaws.cycles.old_tables.table import OldTable
@@ -41,16 +40,15 @@ class OldTableReport:
 
     @property
     def unchanged(self) -> Iterator[str]:
-        """Moves that keep their laws, and why."""
-        for part, was in self._pairs:
-            if part.law is was.law and part.reason:
-                yield sentence(
-                    "the {} from {} keeps its law: {}", part.kind, f"{part.start:g}", self.table.reason_in_words(part)
-                )
-
-    @property
-    def _pairs(self) -> list[tuple[Stretch, Stretch]]:
-        return [] if self.new is None else list(zip(self.new.moves, self.table.moves, strict=True))
+        """Moves that keep their laws or corners, and why; corners that are taken away."""
+        for part in () if self.new is None else self.new.moves:
+            start, reason = f"{part.start:g}", self.table.reason_in_words(part)
+            if part.corner is not None:
+                yield self.table.bend_in_words(part)
+            elif part.solution is None and reason:
+                yield sentence("the {} from {} keeps its law: {}", part.kind, start, reason)
+            elif reason:
+                yield sentence("the {} from {}: {}", part.kind, start, reason)
 
     @kept_property
     def tables(self) -> tuple[ReportTable, ...]:
@@ -71,7 +69,9 @@ class OldTableReport:
 
     def _gains(self) -> list[list[Any]]:
         rows = []
-        for each in (gain(part, was) for part, was in self._pairs if part.law is not was.law):
+        for each in () if self.new is None else self.new.gains(self.table):
+            if each.deviation == 0.0:
+                continue
             for nu in (1, 2, 3):
                 peaks = [each.old[nu - 1], each.new[nu - 1], self.table.unit_of(nu)]
                 open_to = (100.0 * share for share in each.shares(nu))

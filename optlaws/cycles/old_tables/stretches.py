@@ -46,11 +46,10 @@ class Stretch:
     solution
         Of a better law: the solution that it is from, with its certificate.
     reason, sufficient_tolerance
-        Of a move that keeps its law where a better one was sought: why, and a tolerance within which one exists; 0
-        where none was found.
-    rounding
-        Of a move that keeps its law between corners: over how much of the master parabolas about these, within the
-        sufficient tolerance, take them away; else 0.
+        Of a move that keeps its law or a corner where better was sought: why, and a tolerance that is enough; 0 where
+        none was found.
+    corner
+        Of a move in which the velocity changes smoothly from line to line: where its corner was.
     peaks
         Between which values the peaks of velocity, acceleration and jerk are by the table; empty for a dwell, and for a
         law in place of that of the table.
@@ -67,7 +66,7 @@ class Stretch:
     solution: Solution | None = None
     reason: str = ""
     sufficient_tolerance: float = 0.0
-    rounding: float = 0.0
+    corner: float | None = None
     peaks: tuple[PeakInterval, ...] = ()
 
     @property
@@ -107,6 +106,7 @@ def _parts_of(motion: FittedMotion) -> Iterator[Stretch]:
     at, level, corner = float(x[0]), motion.moves[0].position_before(float(x[0])), False
     for move in motion.moves:
         start = move.start if move.start - at > least else at
+        start = start if float(x[-1]) - start > least else float(x[-1])
         if start > at:
             yield _between(at, start, level, move.low, least_rise, corner=corner or move.corners[0])
         corner = move.corners[1]

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.old_tables.better_laws import MoveGain, bettered, gain
+from optlaws.cycles.old_tables.better_laws import MoveGain, bettered, gain, without_corners
 from optlaws.cycles.old_tables.frame import (
     begun,
     closed,
@@ -107,7 +107,8 @@ class OldTable:
         Raises
         ------
         InputError
-            If both are given, or neither where the master is an angle whose speed the file does not say.
+            If both are given, or neither where the master is an angle whose speed the file does not say; if the
+            velocity jumps at a corner.
 
         Examples
         --------
@@ -133,6 +134,12 @@ class OldTable:
                 speed = Exact(self.rate, f"{self.master}/s")
         if speed is not None and period is None and self.whole and not times:
             period, speed = Exact(period_of(turn, self.master, speed), "s"), None
+        if self.corners:
+            left = [self.reason_in_words(part) for part in self.moves if part.solution is not None and part.reason]
+            remedy = joined("; ", left) if left else "modernise it within a tolerance, which takes corners away"
+            raise InputError(
+                f"the velocity jumps at {self._named(self.corners)}, and that of a cycle does not: {remedy}"
+            )
         segments: list[CycleSegment] = []
         for part in self.stretches:
             length = part.stop - part.start
@@ -168,6 +175,10 @@ class OldTable:
         degree within the tolerance has less acceleration, and where it has no acceleration or no jerk, as one at
         constant velocity: `reason` of its stretch says why, and `sufficient_tolerance` within what one has less.
 
+        Where the velocity jumps between lines, at rest or not, it changes smoothly over as much of the master as the
+        tolerance allows, in moves that know their `corner`; beside another move the new law begins or ends with the
+        velocity of the line, or the corner stays and `reason` says so.
+
         Parameters
         ----------
         tolerance
@@ -190,15 +201,16 @@ class OldTable:
         ['-10.9% of rise', '-10.9% of return']
         """
         room = positive(tolerance, "tolerance")
-        return replace(self, stretches=tuple(bettered(self.stretches, room, order, degree)))
+        smooth = without_corners(self.stretches, room, order)
+        return replace(self, stretches=tuple(bettered(smooth, room, order, degree)))
 
     def gains(self, old: OldTable) -> tuple[MoveGain, ...]:
-        """Gains of each move over the moves of an older table: peaks, and the deviation.
+        """Gains of each move over the moves of an older table: peaks, and the deviation; lines have none.
 
         Raises
         ------
         InputError
-            If the moves of the two are not at the same places.
+            If the moves of the two that are no lines are not at the same places.
 
         Examples
         --------
@@ -209,10 +221,13 @@ class OldTable:
         >>> [round(number, 9) for number in old.gains(old)[0].old]  # mm/deg, mm/deg², mm/deg³
         [0.5, 0.01308997, 0.000685389]
         """
-        places = [[(part.start, part.stop, part.low, part.high) for part in each.moves] for each in (self, old)]
+        new, was = (
+            [part for part in each.stretches if part.line is None and part.corner is None] for each in (self, old)
+        )
+        places = [[(part.start, part.stop, part.low, part.high) for part in each] for each in (new, was)]
         if places[0] != places[1]:
             raise InputError("gains need two tables with the same moves, one computed from the other")
-        return tuple(map(gain, self.moves, old.moves))
+        return tuple(map(gain, new, was))
 
     def plot(self, ax: Any = None, *, new: OldTable | None = None, **style: Any) -> list[Any]:
         """Draw the points and the laws over the master: positions, velocity, acceleration, jerk; return the artists.
@@ -367,17 +382,17 @@ class OldTable:
         if not part.sufficient_tolerance:
             return part.reason
         enough = Amount(part.sufficient_tolerance, self.unit, 3)
-        if part.rounding:
-            wide = Amount(part.rounding, self.master, 3)
-            bend = Amount(8.0 * part.sufficient_tolerance / part.rounding**2, self.unit_of(2), 3)
-            return sentence(
-                "{}, between corners; a parabola over {} about each is within {} and has an acceleration of {}",
-                part.reason,
-                wide,
-                enough,
-                bend,
-            )
+        if part.solution is not None:
+            return sentence("{}; within {} none stays", part.reason, enough)
         return sentence("{}; within {} one has less acceleration", part.reason, enough)
+
+    def bend_in_words(self, part: Stretch) -> str:
+        """From where to where a corner is taken away, with the acceleration there."""
+        C = abs(part.stroke) / (part.stop - part.start) ** 2 * law_of_move(part).constants.C.value
+        ends = f"{part.start:.5g}", Amount(part.stop, self.master, 5)
+        return sentence(
+            "the corner at {} to {} is taken away, with an acceleration of {}", *ends, Amount(C, self.unit_of(2), 3)
+        )
 
     def law_in_words(self, part: Stretch) -> str:
         """The standard law of a move, or the nearest standard law, with the deviation of the points from it."""
