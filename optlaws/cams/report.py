@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
-from math import degrees
+from math import degrees, radians, tan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -31,9 +31,10 @@ from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.usual_law import usual_cycle
 from optlaws.kept import kept_property
 from optlaws.laws.catalogue.catalogue import USUAL
-from optlaws.motion.quantities import DEGREES, MILLI, TURN, TURN_DEG, UNITS
+from optlaws.motion.quantities import DEGREES, MILLI, TURN, TURN_DEG, UNITS, in_degrees
 from optlaws.numbers import Array, NumberOrQuantity, bounded, chop
-from optlaws.sentences import Sentence, capital, joined, sentence
+from optlaws.numerics.peaks import is_kept
+from optlaws.sentences import Amount, Sentence, capital, joined, sentence
 from optlaws.shown.curve_points import refined
 from optlaws.shown.difference import Differences
 from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Section, Series
@@ -48,6 +49,7 @@ if TYPE_CHECKING:
 #: of numbers on pages; files have all
 DIGITS = 5
 _INSIDE = 1e-9  # of a smooth part: so near to its ends it is drawn
+_USUAL_PRESSURE = 30.0  # deg: what the roller of a slide is led by at most without a reason
 _FAR = 4.0  # a radius of curvature beyond so many prime circles is a straight edge
 
 Values = Callable[[Array], Array]
@@ -294,8 +296,8 @@ _CUSPS = {
 }
 
 
-def barrel_section(cam: BarrelCam) -> Section:
-    """The undercut of a barrel cam, and its enclosed extremes."""
+def barrel_section(cam: BarrelCam, limits: CamLimits = CamLimits()) -> Section:  # noqa: B008 - it is frozen
+    """The undercut of a barrel cam, its enclosed extremes, and where its pressure angle is more than is allowed."""
     least, greatest = cam.pressure_angles
     facts = [
         extreme_row("pressure angle at the bottom, least", least, "deg"),
@@ -308,7 +310,31 @@ def barrel_section(cam: BarrelCam) -> Section:
         "undercut": {"status": cam.undercut},
     }
     table = ReportTable.of_pairs(facts, "at least", "at most")
-    return Section(text=f"Undercut: {_CUSPS[cam.undercut]}.", facts=facts, table=table, data=data, digits=DIGITS)
+    steep = _steep(cam, limits)
+    return Section(
+        text=f"Undercut: {_CUSPS[cam.undercut]}.", facts=facts, table=table, data=data, note=steep, digits=DIGITS
+    )
+
+
+def _steep(cam: BarrelCam, limits: CamLimits) -> str:
+    """A sentence on pressure angles above the limit, or without one above the usual 30 deg; blank within it."""
+    allowed = radians(_USUAL_PRESSURE) if limits.pressure is None else limits.pressure
+    steep = [each for each in cam.pressure_angles if not is_kept(tan(abs(each.value)), tan(allowed), CAM_FEASIBILITY)]
+    if not steep:
+        return ""
+    known = [
+        sentence(
+            "{} at {} where the roller moves {}",
+            Amount(degrees(abs(each.value)), "deg", DIGITS),
+            Amount(degrees(each.angle), "deg", DIGITS),
+            "back" if each.value < 0.0 else "forwards",
+        )
+        for each in steep
+    ]
+    usual = "the usual " if limits.pressure is None else "the allowed "
+    text = "The pressure angle at the bottom of the groove is {}, more than {}{}: make the cylinder larger{}."
+    remedy = ", or give pressure_angle, within which the laws are sought then" if limits.pressure is None else ""
+    return str(sentence(text, joined(" and ", known), usual, in_degrees(allowed), remedy))
 
 
 def barrel_coordinates(cam: BarrelCam, count: int, cutter: NumberOrQuantity | None = None) -> ReportTable:

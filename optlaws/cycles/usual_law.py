@@ -33,7 +33,8 @@ def usual_cycle(cycle: Cycle) -> Cycle | None:
     if all(getattr(cycle.segments[i], "law", None) == USUAL for i in moves):
         return None
     try:
-        segments = [with_law(USUAL, each) if i in moves else each for i, each in enumerate(cycle.segments)]
+        usual_moves = {i: replace(with_law(USUAL, cycle.segments[i]), limits={}) for i in moves}  # type: ignore[type-var]
+        segments = [usual_moves.get(i, each) for i, each in enumerate(cycle.segments)]
         usual = with_laws(cycle, segments, limits={})
         usual.unchecked()
     except InputError:

@@ -78,7 +78,7 @@ from optlaws.motion.quantities import MICRO, MILLI, TURN, TURN_DEG, Exact
 from optlaws.numbers import chop
 from optlaws.plots.cam import animated, barrel_figure, cam_figure, forces_figure, pair_figure
 from optlaws.results import Results
-from optlaws.sentences import Amount, capital
+from optlaws.sentences import Amount, capital, sentence
 from optlaws.shown.report import ReportTable, Section
 from optlaws.shown.summary import Row
 from optlaws.studies.problem_entries import steady
@@ -170,14 +170,27 @@ class BarrelResult(NamedTuple):
     @classmethod
     def of_file(cls, spec: BarrelProblemFile, known: Plan | None = None) -> BarrelResult:
         """The cam of a problem file, or of laws of its motion that are known."""
-        plan = known or spec.cycle.solve()
+        plan = known or _within(spec)
         cam = BarrelCam(plan, **spec.barrel.to_dict(), turning=spec.turning)
         sections, table = (
-            (barrel_section(cam), _laws_section(plan), barrel_differences(cam)),
+            (barrel_section(cam, spec.limits), _laws_section(plan), barrel_differences(cam)),
             barrel_coordinates(cam, spec.rows, spec.cutter_radius),
         )
         data = _proven(spec, plan) | {name: value for each in sections for name, value in each.data.items()}
         return cls(spec, plan, sections, data, table, partial(barrel_figure, cam))
+
+
+def _within(spec: BarrelProblemFile) -> Plan:
+    """The laws of a barrel cam within its pressure angle; an error without any says what would help."""
+    try:
+        return spec.cycle.solve()
+    except InfeasibleProblem as error:
+        if spec.pressure_angle is None:
+            raise
+        allowed = Amount(spec.allowed_velocity, "m/s", DIGITS)
+        text = "{} (the pressure_angle of {} at the bottom of the groove allows {}: {})"
+        remedy = "make the cylinder larger, the groove shallower or the motion slower, or allow more"
+        raise InfeasibleProblem(sentence(text, error.args[0], spec.pressure_angle, allowed, remedy)) from error
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import KW_ONLY
+from dataclasses import KW_ONLY, replace
+from math import inf, tan
 from typing import Any
 
 from optlaws.cams.as_manufactured import PeaksAsMade
@@ -21,12 +22,14 @@ from optlaws.cams.springs_and_flywheels import (
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.drive import ProcessEntries
 from optlaws.cycles.specification.programme import is_optimal
+from optlaws.cycles.specification.segments import CycleSegment, Move
 from optlaws.entries.declared import ValueOf, declared, entry, same
 from optlaws.entries.value_types import Choice, Listed, Measured, Number, Switch, Whole
 from optlaws.errors import InputError
 from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.kept import kept_property
+from optlaws.motion.quantities import TURN, Exact, quantity
 from optlaws.numbers import NumberOrQuantity, Quantity
 
 _LENGTH = Measured("length", above=0.0)
@@ -151,3 +154,36 @@ class BarrelProblemFile(CamOfMotion, title="a barrel cam"):
 
     _: KW_ONLY
     barrel: Groove = entry(ValueOf(Groove), "The cylinder, its groove and the roller.")
+    pressure_angle: NumberOrQuantity | None = same(CamLimits, "pressure_angle")
+
+    @kept_property
+    def limits(self) -> CamLimits:
+        """The limits of the cam."""
+        return CamLimits(self.pressure_angle)
+
+    @kept_property
+    def allowed_velocity(self) -> float:
+        """The velocity in m/s at which the pressure angle at the bottom of the groove is the greatest allowed."""
+        slope = inf if self.limits.pressure is None else tan(self.limits.pressure)
+        return slope * self.barrel.radii[1] * TURN / cycle_of(self.motion, self.speed, self.period).duration
+
+    @kept_property
+    def cycle(self) -> Cycle:
+        """The motion of the roller; laws that are sought keep the pressure angle by their velocity."""
+        axis, most = self.motion, self.allowed_velocity
+        if most == inf:
+            return cycle_of(axis, self.speed, self.period)
+
+        def limited(segment: CycleSegment) -> CycleSegment:
+            if not isinstance(segment, Move) or not is_optimal(segment):
+                return segment
+            given = segment.limits.get("velocity", (axis.limits or {}).get("velocity"))
+            if given is not None and quantity(given, "velocity", "velocity") <= most:
+                return segment
+            return replace(segment, limits={**segment.limits, "velocity": Exact(most, "m/s")})
+
+        return cycle_of(replace(axis, segment=tuple(map(limited, axis.segment))), self.speed, self.period)
+
+    def _check(self) -> None:
+        super()._check()
+        _ = self.limits  # which checks it

@@ -47,15 +47,17 @@ _TABLES: dict[str, dict[str, tuple[ValueType, str | None, str]]] = {
     "cycle, cam, barrel, drive, mechanism, fastest, law": {
         "jerk": (_JERK, None, "Greatest jerk; unless given that of modified sine, of a least time an example."),
     },
-    "cam, barrel": {"roller": (_LENGTH, "12 mm", "Radius of the roller.")},
+    "cam, barrel": {
+        "roller": (_LENGTH, "12 mm", "Radius of the roller."),
+        "pressure-angle": (Measured("angle"), "30 deg", "Greatest pressure angle; of a barrel none unless given."),
+    },
     "barrel": {
-        "outer-radius": (_LENGTH, "60 mm", "Radius of the cylinder."),
+        "outer-radius": (_LENGTH, "80 mm", "Radius of the cylinder."),
         "depth": (_LENGTH, "12 mm", "Depth of the groove."),
         "cutter": (_LENGTH, None, "Radius of the cutter."),
     },
     "cam": {
         "offset": (Measured("length"), None, "Offset of the follower's line from the shaft; 0 unless given."),
-        "pressure-angle": (Measured("angle"), "30 deg", "Greatest pressure angle."),
         "curvature": (Measured("length", least=0.0), "5 mm", "Least radius of curvature."),
         "prime-radius": (_LENGTH, None, f"Prime radius; {_LEAST}"),
     },
@@ -108,8 +110,8 @@ _TABLES: dict[str, dict[str, tuple[ValueType, str | None, str]]] = {
     },
 }
 #: and what they are of the files of some kinds
-_USUAL = {
-    "barrel": {"roller": "8 mm"},
+_USUAL: dict[str, dict[str, str | None]] = {
+    "barrel": {"roller": "8 mm", "pressure-angle": None},
     "drive": {"stroke": "45 deg", "duration": "0.25 s"},
     "mechanism": {"mass": "12 kg", "duration": "0.5 s", "period": "0.7 s"},
     "fastest": {"stroke": "300 mm", "frequency": "13 Hz"},

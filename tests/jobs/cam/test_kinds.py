@@ -14,6 +14,7 @@ from optlaws import (
     Cycle,
     DiscCam,
     Dwell,
+    InfeasibleProblem,
     InputError,
     OscillatingRoller,
     Return,
@@ -219,6 +220,32 @@ def test_a_barrel_has_its_flanks_tabled(tmp_path: Path) -> None:
     assert reply["undercut"] == {"status": cam.undercut}
     assert reply["pressure_angles"]["greatest"]["high"] == pytest.approx(cam.pressure_angles[1].high, rel=1e-9)
     assert written == {"cam.md", "cam.csv", "cam.json", "cam.svg"}
+
+
+def test_a_barrel_keeps_its_pressure_angle_or_says_where_it_is_steep(tmp_path: Path) -> None:
+    def cam(allowed: str, text: str = BARREL) -> tuple[str, Any, Path]:
+        folder = tmp_path / (allowed or "free")
+        folder.mkdir()
+        page, reply, _ = done(folder, f'pressure_angle = "{allowed}"\n' + text if allowed else text)
+        return page, reply["pressure_angles"], folder / "out" / "cam.json"
+
+    page, angles, _ = cam("")
+    steepest = np.degrees([-angles["least"]["low"], angles["greatest"]["high"]])
+    (remark,) = re.findall(r"The pressure angle at the bottom of the groove is .*", page)
+    assert re.findall(r"([\d.]+) deg at", remark) == [f"{angle:.5g}" for angle in steepest]
+    assert "where the roller moves back and" in remark
+    assert remark.endswith("or give pressure_angle, within which the laws are sought then.")
+    # the laws take the limit to the full, and nothing is left to be said
+    allowed = round(float(max(steepest)) - 1.0, 3)
+    page, angles, file = cam(f"{allowed} deg")
+    assert np.degrees(max(-angles["least"]["low"], angles["greatest"]["high"])) == pytest.approx(allowed, rel=1e-7)
+    assert "The pressure angle at the bottom" not in page
+    assert not [claim for each in verify_all(file).values() for claim in each.unchecked]
+    # a law that is given may be steeper
+    given = BARREL.replace('by = "35 mm"', 'by = "35 mm"\nlaw = "345"').replace('"return"', '"return"\nlaw = "345"')
+    assert "more than the allowed 20 deg: make the cylinder larger." in cam("20 deg", given)[0]
+    with pytest.raises(InfeasibleProblem, match=r"the pressure_angle of 9 deg .* allows [\d.]+ m/s: make the cylinder"):
+        cam("9 deg")
 
 
 @pytest.mark.parametrize(
