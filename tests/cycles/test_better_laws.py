@@ -66,6 +66,8 @@ def test_moves_that_run_on_in_constant_velocity_are_bettered() -> None:
     for gain in new.gains(old):
         assert gain.deviation <= 0.2
         assert not gain.share(2) > -0.1
+        assert gain.status == "optimal"
+        assert gain.new[1] * (1.0 - 1e-6) <= gain.lower_bound <= gain.new[1]
     cycle = new.cycle(speed="12 rpm")
     for part in new.stretches:
         beside = part.start + np.array([-1e-7, 1e-7])

@@ -186,14 +186,11 @@ def _old_cam(
 
 
 def _tolerance(text: str, old: OldTable) -> float:
-    """A tolerance in units of the table; a bare number is in these."""
-    from optlaws.motion.quantities import either
+    """A tolerance in units of the table."""
+    from optlaws.motion.quantities import either, quantity
 
-    try:
-        return float(text)
-    except ValueError:
-        dimension, size = either(f"1 {old.unit}", ("length", "angle"), "unit")
-        return either(text, (dimension,), "--modernise")[1] / size
+    dimension, size = either(f"1 {old.unit}", ("length", "angle"), "unit")
+    return quantity(text, dimension, "--modernise", above=0.0) / size
 
 
 def _save(latest: OldTable, place: Path, source: Path, speed: str | None) -> Path:

@@ -63,6 +63,9 @@ class MoveGain(NamedTuple):
         The greatest difference of positions, over the whole move.
     intervals
         Between which values the old peaks are by the table; empty where the old move is of no table.
+    lower_bound, status
+        What no acceleration within the tolerance is below, of laws of the order and degree, and the status of the new
+        law: nan and "" where none was sought or found.
 
     Examples
     --------
@@ -77,6 +80,8 @@ class MoveGain(NamedTuple):
     new: tuple[float, float, float]
     deviation: float
     intervals: tuple[PeakInterval, ...] = ()
+    lower_bound: float = nan
+    status: str = ""
 
     def shares(self, nu: int) -> tuple[float, float]:
         """The least and the greatest relative change of the peak of order nu, 1 to 3, that the table leaves open.
@@ -386,7 +391,9 @@ def gain(new: Stretch, old: Stretch) -> MoveGain:
         (B.value * size / length, C.value * size / length**2, J.value * size / length**3)
         for B, C, J in ((law.constants.B, law.constants.C, law.constants.J) for law in laws)
     )
-    return MoveGain(old.kind, old.start, old.stop, before, after, size * deviation(*laws), old.peaks)
+    known = new.solution
+    proof = (known.lower_bound * size / length**2, known.status.value) if known else (nan, "")
+    return MoveGain(old.kind, old.start, old.stop, before, after, size * deviation(*laws), old.peaks, *proof)
 
 
 def deviation(law: MotionLaw, other: MotionLaw) -> float:

@@ -64,7 +64,7 @@ class OldTableReport:
         ]
         stretches = ReportTable(["what", *ends, f"by, {old.unit}", "law"], rows)
         change = ["change at least, %", "at most, %", "change, %"]
-        gains = ["what", *ends, "peak", "old", "new", "unit", *change, f"off by, {old.unit}"]
+        gains = ["what", *ends, "peak", "old", "new", "lower bound", "status", "unit", *change, f"off by, {old.unit}"]
         return (stretches, ReportTable(gains, new)) if new else (stretches,)
 
     def _gains(self) -> list[list[Any]]:
@@ -73,7 +73,8 @@ class OldTableReport:
             if each.deviation == 0.0:
                 continue
             for nu in (1, 2, 3):
-                peaks = [each.old[nu - 1], each.new[nu - 1], self.table.unit_of(nu)]
+                proof = [bounded(each.lower_bound), each.status] if nu == 2 else [None, ""]
+                peaks = [each.old[nu - 1], each.new[nu - 1], *proof, self.table.unit_of(nu)]
                 open_to = (100.0 * share for share in each.shares(nu))
                 change = [bounded(share) for share in (*open_to, 100.0 * each.share(nu))]
                 first = [each.kind, each.start, each.stop] if nu == 1 else ["", None, None]
@@ -137,6 +138,8 @@ class OldTableReport:
                 "old": list(map(bounded, each.old)),
                 "new": list(map(bounded, each.new)),
                 "intervals": list(map(_plain, each.intervals)),
+                "lower_bound": bounded(each.lower_bound),
+                "status": each.status or None,
             }
             for each in new.gains(old)
         )
