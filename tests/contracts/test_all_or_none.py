@@ -123,7 +123,7 @@ def test_a_table_at_constant_velocity_is_refused_and_leaves_nothing(
     before = contents(folder)
     arguments = ["cycle", "pump.txt", "--speed", "200rpm", "--tolerance", "0.001", "--save", "pump.toml"]
     assert exit_code([*arguments, "--modernise", "0.1mm"]) == 2
-    assert "a jump of" in capsys.readouterr().err
+    assert "the velocity jumps at" in capsys.readouterr().err
     assert contents(folder) == before
     assert exit_code([*arguments[:2], "--tolerance", "0.001", "--modernise", "0.1mm"]) == 0
     assert "keeps its law: it is at constant velocity" in capsys.readouterr().out

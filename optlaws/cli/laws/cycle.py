@@ -165,7 +165,11 @@ def _old_cam(
     old = optlaws.read_cycle_table(file, **how)
     new = None if cam["modernise"] is None else old.bettered(_tolerance(cam["modernise"], old))
     latest, report = new or old, OldTableReport(old, new)
-    if new is not None and (save or chosen) and all(part in old.stretches for part in new.moves):
+    if (
+        new is not None
+        and (save or chosen)
+        and all(part.solution is None and part.corner is None for part in new.moves)
+    ):
         reasons = joined("; ", report.unchanged)
         raise InfeasibleProblem(sentence("no file is written, because no move has a better law: {}", reasons))
     files, lines = {}, []

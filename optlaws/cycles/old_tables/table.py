@@ -135,7 +135,9 @@ class OldTable:
         if speed is not None and period is None and self.whole and not times:
             period, speed = Exact(period_of(turn, self.master, speed), "s"), None
         if self.corners:
-            left = [self.reason_in_words(part) for part in self.moves if part.solution is not None and part.reason]
+            left = {
+                self.reason_in_words(part): None for part in self.moves if part.solution is not None and part.reason
+            }
             remedy = joined("; ", left) if left else "modernise it within a tolerance, which takes corners away"
             raise InputError(
                 f"the velocity jumps at {self._named(self.corners)}, and that of a cycle does not: {remedy}"
