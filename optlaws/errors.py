@@ -70,11 +70,15 @@ class CallError(InputError, TypeError):
 
 @contextmanager
 def located(where: str) -> Iterator[None]:
-    """Errors name the file, the axis or the entry that they came from; a problem and its proof stay with them.
+    """Errors name the file, the axis or the entry that they came from, once; a problem and its proof stay with them.
 
     Examples
     --------
     >>> with located("axis slide"):
+    ...     raise InputError("order must be at least 1, got 0")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: axis slide: order must be at least 1, got 0
+    >>> with located("axis slide"), located("axis slide"):
     ...     raise InputError("order must be at least 1, got 0")
     Traceback (most recent call last):
     optlaws.errors.InputError: axis slide: order must be at least 1, got 0
@@ -88,6 +92,8 @@ def located(where: str) -> Iterator[None]:
     try:
         yield
     except OptlawsError as error:
+        if str(error.args[0]).startswith(f"{where}: "):
+            raise  # what is within is located there already
         placed = copy(error)  # the error itself may be stored, and raised again elsewhere
         placed.args = (cut(sentence("{}: {}", where, error.args[0])), *error.args[1:])
         raise placed from None

@@ -117,6 +117,17 @@ def test_nothing_is_written_over(capsys: Capture) -> None:
     assert Path("cycle.toml").read_text("utf-8") == "mine"
 
 
+@pytest.mark.parametrize(
+    "words",
+    ["cycle --rise 300deg --dwell 100deg", "barrel --depth 90mm", "cam --rise 300deg --dwell 100deg"],
+)
+def test_an_error_names_the_file_once(words: str, capsys: Capture) -> None:
+    kind, *options = words.split()
+    assert exit_code(["new", kind, "a.toml", *options]) == 2
+    assert capsys.readouterr().err.count("a.toml") == 1
+    assert not Path("a.toml").exists()
+
+
 def test_nothing_is_read_from_a_terminal(monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
     monkeypatch.setattr("sys.stdin", Terminal("100 deg\n"))
     assert exit_code(["new", "cycle", "--stroke", "20 mm"]) == 0

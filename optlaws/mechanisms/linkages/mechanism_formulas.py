@@ -149,10 +149,14 @@ def formula_of(
     if isinstance(given, Formula):
         return given
     if isinstance(given, Mapping | list | tuple):
-        numbers = table_numbers(list(given.items() if isinstance(given, Mapping) else given), dimensions, name)
-        for (place, _), (following, _) in pairwise(numbers):
+        pairs = list(given.items() if isinstance(given, Mapping) else given)
+        numbers = table_numbers(pairs, dimensions, name)
+        for i, ((place, _), (following, _)) in enumerate(pairwise(numbers)):
             if place >= following:
-                raise InputError(f"{name}: the places of a table must ascend, got {place:g} before {following:g}")
+                raise InputError(
+                    f"{name}: the places of a table must ascend, got {shortened(pairs[i][0])} before "
+                    f"{shortened(pairs[i + 1][0])}"
+                )
         places, values = zip(*numbers, strict=True)
         return Table(Name(variable), places, values, JOINED[interpolation])
     if isinstance(given, str) and _WITH_UNIT.match(given) is None:

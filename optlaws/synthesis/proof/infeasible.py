@@ -156,7 +156,8 @@ def _contradiction(proof: Certificate) -> str:
     parts = _parts(proof.problem)
     acting = [contact for contact in proof.contacts if contact.multiplier > 0.0]
     placed = [(*parts.get(contact.constraint, (C, 0)), contact.k) for contact in acting]
-    words = [constant.where(k, part).partition(" = ") for constant, part, k in placed]
+    ordered = sorted(placed, key=lambda place: (place[2], place[1]))
+    words = dict.fromkeys(constant.where(k, part).partition(" = ") for constant, part, k in ordered)
     symbols = dict.fromkeys(symbol for symbol, _, _ in words)
     places = ", ".join(f"{shown} = {', '.join(at for symbol, _, at in words if symbol == shown)}" for shown in symbols)
     return f"the constraints contradict each other at {places}"

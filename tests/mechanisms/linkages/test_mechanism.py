@@ -181,7 +181,8 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: Mechanism({0.0: 1.0}), "a table needs 2 pairs"),
     (lambda: Mechanism("table(x, 0:1, 1:2, 2:1)"), "the inertia has corners"),
     (lambda: Mechanism(1.0, "spline(x, 0:0, 1:0, 1.2:9, 2:9, 3:9)"), "load: between 0 and 1 the spline is .* beyond"),
-    (lambda: Mechanism(1.0, {1.0: 1.0, 0.5: 1.0}), "places of a table must ascend, got 1 before 0.5"),
+    (lambda: Mechanism(1.0, {1.0: 1.0, 0.5: 1.0}), "places of a table must ascend, got 1.0 before 0.5"),
+    (lambda: Mechanism(1.0, [("60 deg", 1.0), ("50 deg", 1.0)]), "must ascend, got '60 deg' before '50 deg'"),
     (lambda: ALL["formula"].dimensionless(1.0, 3.0, 1.0), "defined from 0 deg to 171.887339 deg, got 229.183"),
     (
         lambda: ALL["formula"].dimensionless(1.0, 0.0, 1.0),
