@@ -51,6 +51,8 @@ _FINE, _ROUGH = 0.02, 0.2
 _DEGREES, _CONTACTS = range(7, 34, 2), (3, 2)
 #: of a step: ends of rests beside one polynomial are no nearer; and how often they are moved at most
 _EXACT, _ENDS_MOVED = 1e-9, 40
+#: of a sum of squares: what is gained in the last step of a search among degrees
+_AS_NEAR = 1e-4
 #: steps to which places are rounded where the rows allow it, in parts of a turn
 _ROUND = (1.0 / 36.0, 1.0 / 72.0, 1.0 / 360.0, 1.0 / 720.0, 1.0 / 3600.0)
 #: a master that is longer is no turn in radians or turns
@@ -329,7 +331,7 @@ class _Fitter:
         step = float(np.median(np.diff(self.x)))
         start, stop = least_squares(
             self._missed, np.clip(np.array(at), low, high), bounds=(low, high), x_scale=step,
-            ftol=None, xtol=_EXACT, gtol=None, max_nfev=_ENDS_MOVED,
+            ftol=_AS_NEAR if self.fine == _ROUGH else None, xtol=_EXACT, gtol=None, max_nfev=_ENDS_MOVED,
         ).x  # fmt: skip
         return float(start), float(stop)
 

@@ -178,11 +178,17 @@ def _divided(
 
 
 def _doubtful(samples: Samples, rests: Sequence[Line]) -> list[float]:
-    """The middles of short rests in noise, which may be the crest of one motion."""
+    """The middles of short rests in noise, also over the end of a turn, which may be the crest of one motion."""
     x, y = samples.places, samples.heights
-    short = [rest for rest in rests if x[rest.last] - x[rest.first] < _SHORT * np.ptp(x)]
-    noisy = [rest for rest in short if np.ptp(y[rest.first : rest.last + 1]) > 0.0]
-    return [float(0.5 * (x[rest.first] + x[rest.last])) for rest in noisy]
+    most, over_end = _SHORT * float(np.ptp(x)), 0.0
+    if rests and rests[0].first == 0 and rests[-1].last == len(x) - 1:
+        over_end = float(x[rests[0].last] - x[0] + x[-1] - x[rests[-1].first])
+    middles = []
+    for rest in rests:
+        length = over_end if over_end and rest in (rests[0], rests[-1]) else x[rest.last] - x[rest.first]
+        if length < most and np.ptp(y[rest.first : rest.last + 1]) > 0.0:
+            middles.append(float(0.5 * (x[rest.first] + x[rest.last])))
+    return middles
 
 
 def _moves_between(
