@@ -1,5 +1,6 @@
 """Internals of `optlaws.mechanisms` that tests look at by themselves."""
 
+from optlaws.mechanisms.drives.peak_torque import least_peak_torque
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
 from optlaws.mechanisms.linkages.move_limit import move_limit
 from optlaws.mechanisms.linkages.plane_linkages import SliderCrank

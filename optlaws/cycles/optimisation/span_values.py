@@ -33,6 +33,7 @@ from optlaws.cycles.specification.programme import LawSpan, Layout
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
+from optlaws.mechanisms.drives.peak_torque import least_peak_torque
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import Kind
 from optlaws.synthesis.functionals.makers import integral, peak, rms
@@ -391,6 +392,9 @@ def _bound_of_drive(span: LawSpan, objective: CycleObjective) -> float:
         return -inf
     known = torque_limit(span, objective, "peak torque" if kind is Kind.FORCE and not objective.mean else "rms torque")
     least = 0.0 if known is None else max(known.value, 0.0)
+    if least == 0.0 and kind is Kind.FORCE and not objective.mean:
+        # loads that drive the machine leave the search without a potential
+        least = least_peak_torque(known_drive(drive), span.origin, span.stroke, span.duration)
     return least if kind is Kind.FORCE else drive.train.copper * span.duration * least**2
 
 
