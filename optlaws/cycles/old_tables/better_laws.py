@@ -172,15 +172,15 @@ def _better(
         without = _with_least(part, old, share, order, degree, smooth)
         if without.solution is not None:
             return without
-        stays = f"a corner stays, as {without.reason}"
-        enough = abs(part.stroke) * _enough(old, share, order, degree, smooth)
-        return replace(_with_least(part, old, share, order, degree, ends), reason=stays, sufficient_tolerance=enough)
+        cornered = _with_least(part, old, share, order, degree, ends)
+        cornered = replace(cornered, reason=f"a corner stays, as {without.reason}")
+        return _with_enough(cornered, old, share, order, degree, smooth)
     if any(abs(value) >= old.constants.C.value * (1.0 - _LEAST_GAIN) for state in ends for value in state[2:3]):
         return replace(part, reason="its acceleration is greatest where it goes on into the next move")
     better = _with_least(part, old, share, order, degree, ends)
     if better.solution is not None:
         return better
-    return replace(better, sufficient_tolerance=abs(part.stroke) * _enough(old, share, order, degree, ends))
+    return _with_enough(better, old, share, order, degree, ends)
 
 
 def _with_least(part: Stretch, old: MotionLaw, share: float, order: int, degree: int, ends: Ends) -> Stretch:
@@ -306,15 +306,24 @@ def _ends(
     return states[0], states[1]
 
 
-def _enough(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) -> float:
-    """A tolerance, as a share of the stroke, within which a law has less acceleration; 0 where none was found."""
+def _with_enough(part: Stretch, old: MotionLaw, share: float, order: int, degree: int, ends: Ends) -> Stretch:
+    """A move with a tolerance within which a law is better, and by how much; as it is where none was found."""
+    before = _acceleration_before(old, ends)
     while (share := 2.0 * share) <= _MOST:
         try:
-            if _least(old, share, order, degree, ends) is not None:
-                return share
+            solution = _least(old, share, order, degree, ends)
         except (InfeasibleProblem, SolverFailure):
             continue
-    return 0.0
+        if solution is not None:
+            less = 1.0 - solution.law.constants.C.value / before
+            return replace(part, sufficient_tolerance=share * abs(part.stroke), sufficient_gain=less)
+    return part
+
+
+def _acceleration_before(old: MotionLaw, ends: Ends) -> float:
+    """The peak of the acceleration of an old law; infinite where it has a corner at an end and a new one has none."""
+    velocities = [abs(was[1] - state[1]) for was, state in zip(old.boundary_values(2), ends, strict=True)]
+    return inf if max(velocities) > _SAME * old.constants.B.value else old.constants.C.value
 
 
 @lru_cache(maxsize=256)
@@ -327,11 +336,10 @@ def _least(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) ->
     over a part of the move, and corners over the width that the tolerance allows. The acceleration of an old law with a
     corner that the new one has not is infinite.
     """
-    C, J, before = old.constants.C.value, old.constants.J.value, old.boundary_values(3)
+    C, J, before = _acceleration_before(old, ends), old.constants.J.value, old.boundary_values(3)
     corners = [abs(was[1] - state[1]) for was, state in zip(before, ends, strict=True)]
     jumps = [abs(was[2] - now) for was, state in zip(before, ends, strict=True) for now in state[2:3]]
     jerk = _JERK * max([J, *(jump / _RAMP for jump in jumps), *(_bend_jerk(jump, share) for jump in corners)])
-    C = inf if max(corners) > _SAME * old.constants.B.value else C
     same = min(len(state) for state in ends)
     known = [
         via(quantity, value, at=state[0]) for state in ends for quantity, value in zip("cj", state[same:], strict=False)

@@ -45,9 +45,9 @@ class Stretch:
         How far the points are from that at most, in units of the table.
     solution
         Of a better law: the solution that it is from, with its certificate.
-    reason, sufficient_tolerance
-        Of a move that keeps its law or a corner where better was sought: why, and a tolerance that is enough; 0 where
-        none was found.
+    reason, sufficient_tolerance, sufficient_gain
+        Of a move that keeps its law or a corner where better was sought: why, a tolerance that is enough, and by which
+        share the acceleration of a law within it is less; 0 where none was found.
     corner
         Of a move in which the velocity changes smoothly from line to line: where its corner was.
     peaks
@@ -66,6 +66,7 @@ class Stretch:
     solution: Solution | None = None
     reason: str = ""
     sufficient_tolerance: float = 0.0
+    sufficient_gain: float = 0.0
     corner: float | None = None
     peaks: tuple[PeakInterval, ...] = ()
 

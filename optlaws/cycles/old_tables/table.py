@@ -386,7 +386,9 @@ class OldTable:
         enough = Amount(part.sufficient_tolerance, self.unit, 3)
         if part.solution is not None:
             return sentence("{}; within {} none stays", part.reason, enough)
-        return sentence("{}; within {} one has less acceleration", part.reason, enough)
+        return sentence(
+            "{}; within {} one has {} less acceleration", part.reason, enough, f"{part.sufficient_gain:.1%}"
+        )
 
     def bend_in_words(self, part: Stretch) -> str:
         """From where to where a corner is taken away, with the acceleration there."""
