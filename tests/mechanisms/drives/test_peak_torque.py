@@ -1,0 +1,53 @@
+"""The least peak torque by the energy of a stroke, against another method and against laws."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optlaws import Cycle, Drive, Dwell, Loads, Mechanism, Motor, Rise, slider_crank, toggle
+from tests.internals.mechanisms import least_peak_torque
+
+GEARED = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2"), ratio=20, efficiency=0.85)
+LOADED = Mechanism("0.8 kg m^2", load="3 N m", viscous="0.5 N m s/rad", coulomb="2 N m")
+FORCE = Loads({"0 deg": "0 N", "120 deg": "-90 N", "360 deg": "0 N"}, over="input")
+PRESS = Drive.of_input(slider_crank("0.1 m", "0.4 m", bodies={"slider": "12 kg"}, loads=FORCE))
+PLATEAU = {"0 deg": 0.0, "60 deg": 0.0, "90 deg": -2e3, "120 deg": -2e3, "150 deg": 0.0, "360 deg": 0.0}
+#: the load, which gives more than it takes, drives it
+KNEE = toggle(
+    {"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "200 mm", "frame": "280 mm"},
+    bodies={"ram": "40 kg", "crank": "0.05 kg m^2"},
+    loads=Loads(PLATEAU, over="input"),
+)
+DRIVEN = Drive(KNEE, Motor("3e-4 kg m^2"), ratio=10, efficiency=0.92)
+RUBBING = replace(GEARED, mechanism=LOADED)
+
+
+@pytest.mark.parametrize("drive", [GEARED, RUBBING, PRESS], ids=["geared", "rubbing", "press"])
+@pytest.mark.parametrize("stroke", [0.8, -0.8])
+def test_it_is_the_limit_of_the_phase_plane(drive: Drive, stroke: float) -> None:
+    """A potential whose certificate is proven has as much, found by a linear program over position and velocity."""
+    start = 1.0
+    known = drive.limit("peak torque", start, stroke, 0.25).value
+    assert least_peak_torque(drive, start, stroke, 0.25) == pytest.approx(known, rel=2e-3)
+
+
+def test_a_load_that_drives_has_a_bound_by_its_work() -> None:
+    drive = Drive.of_input(KNEE)
+    x = np.linspace(0.0, 2.0 * np.pi, 20001)
+    load = np.asarray(KNEE.torque(x, 0.0, 0.0, 1.0))
+    work = np.concatenate([[0.0], np.cumsum(0.5 * (load[1:] + load[:-1]) * np.diff(x))])
+    braked = ((work - work[-1])[:-1] / (x[-1] - x[:-1])).max()
+    bound = least_peak_torque(drive, 0.0, 2.0 * np.pi, 0.8)
+    assert bound == pytest.approx(braked, rel=1e-4)
+    assert bound > 18.0
+
+
+@pytest.mark.parametrize("drive", [KNEE, DRIVEN], ids=["knee", "geared"])
+def test_a_cycle_of_least_torque_has_this_bound(drive: Drive | Mechanism) -> None:
+    given: dict[str, Any] = {"period": "1 s", "advance": "360 deg", "drive": drive, "minimise": "torque"}
+    cycle = Cycle([Rise("360 deg", "0.8 s", law="modified sine"), Dwell()], **given)
+    best = Cycle([Rise("360 deg", "0.8 s"), Dwell()], **given, degree=3, limits={"jerk": "3000 rad/s^3"})
+    assert best.lower_bound is not None
+    assert 0.25 * best.objective < best.lower_bound < best.objective < cycle.value("torque")
