@@ -125,6 +125,20 @@ def test_nothing_is_written_of_a_damaged_table(
     assert [file.name for file in tmp_path.iterdir()] == ["cam.csv"]
 
 
+def test_better_laws_are_saved_with_their_proofs_and_saved_again_unless_they_change(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("cam.csv").write_text("\n".join(f"{x:g};{y:.3f}" for x, y in zip(DEGREES, lift(DEGREES), strict=True)))
+    ways = ["cycle", "cam.csv", "--speed", "60rpm", "--save", "new.toml", "--modernise"]
+    assert [exit_code([*ways, within]) for within in ("0.1mm", "0.1mm", "0.2mm")] == [0, 0, 2]
+    assert "there is new.toml" in capsys.readouterr().err
+    assert exit_code(["verify", "new.json"]) == 0
+    assert capsys.readouterr().out.count(" claims are proven") == 2
+    assert exit_code([*ways, "0.1"]) == 2
+    assert "without a unit" in capsys.readouterr().err
+
+
 def test_positions_go_on_where_their_encoder_begins_again() -> None:
     x, law = np.arange(0.0, 360.0, 0.5), catalogue["cycloidal"].law
     swing = 25.0 * (law(np.clip((x - 40.0) / 80.0, 0, 1)) - law(np.clip((x - 180.0) / 90.0, 0, 1)))

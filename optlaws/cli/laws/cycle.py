@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping
 from functools import cache, partial
 from pathlib import Path
@@ -76,7 +77,8 @@ def cycle(
     export
         A format of `optlaws export --list`: the cycle is written in it, modernised where --modernise is given.
     save
-        Write the cycle as a problem file (.toml), which contains its laws.
+        Write the cycle as a problem file (.toml), which contains its laws, and beside it the proofs of better ones
+        (.json), which `optlaws verify` takes.
     """
     cam: dict[str, Any] = {"speed": speed, "modernise": modernise, "export": export, "save": save}
     if file.suffix and file.suffix.lower() != ".toml":
@@ -165,16 +167,13 @@ def _old_cam(
     old = optlaws.read_cycle_table(file, **how)
     new = None if cam["modernise"] is None else old.bettered(_tolerance(cam["modernise"], old))
     latest, report = new or old, OldTableReport(old, new)
-    if (
-        new is not None
-        and (save or chosen)
-        and all(part.solution is None and part.corner is None for part in new.moves)
-    ):
+    as_before = new is not None and all(part.solution is None and part.corner is None for part in new.moves)
+    if as_before and (save or chosen):
         reasons = joined("; ", report.unchanged)
         raise InfeasibleProblem(sentence("no file is written, because no move has a better law: {}", reasons))
-    files, lines = {}, []
+    files, lines = dict[str, str](), list[str]()
     if save is not None:
-        files["saved"] = str(_save(latest, save, file, speed))
+        files |= _saved(latest, save, file, speed)
     if chosen is not None:
         with located(_SEGMENTS):
             exported = latest.cycle(speed=speed).export(chosen.name)
@@ -197,12 +196,18 @@ def _tolerance(text: str, old: OldTable) -> float:
     return quantity(text, dimension, "--modernise", above=0.0) / size
 
 
-def _save(latest: OldTable, place: Path, source: Path, speed: str | None) -> Path:
-    """The problem file of a cycle, with the text of laws that have no name."""
+def _saved(latest: OldTable, place: Path, source: Path, speed: str | None) -> dict[str, str]:
+    """The problem file of a cycle, with the text of laws that have no name; and the proofs of better ones."""
     from optlaws.files.writing import MARK, write
+    from optlaws.studies.problem_entries import steady
 
     with located(_SEGMENTS):
         cycle = latest.cycle(speed=speed)
         cycle.solve()  # as a whole, before a file is written
         text = cycle.to_toml(f"The cam of {source.name}", axis="cam")
-    return write(place, f"# from {source.name}; {MARK}\n{text}")
+    files = {"saved": str(write(place, f"# from {source.name}; {MARK}\n{text}"))}
+    solutions = [part.solution.to_dict() for part in latest.moves if part.solution is not None]
+    if solutions:
+        proofs = json.dumps(steady({"about": f"{MARK}, of the laws in {place.name}", "solutions": solutions}), indent=1)
+        files["proofs, for optlaws verify"] = str(write(place.with_suffix(".json"), f"{proofs}\n"))
+    return files
