@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import partial
-from math import inf
+from math import inf, pi, sin
 
 from flint import arb, arb_mat, arb_poly, arb_series, ctx
 
@@ -98,8 +98,12 @@ class OutputRows:
         return [moment / size for moment in moments]
 
     def moments(self) -> list[list[arb]]:
-        """Means of the output times functions that are at most 1 in magnitude: enough of them for all laws."""
-        return moments(self._response, self.exact.start, self.exact.stop, 2 * self._response.laws)
+        """Values of a peak's output, or means of another's times functions of at most 1: enough of them for all laws."""
+        start, stop, count = self.exact.start, self.exact.stop, 2 * self._response.laws
+        if not isinstance(self.exact.constant, OutputPeak):
+            return moments(self._response, start, stop, count)
+        shares = (Fraction(sin(pi * (i + 0.5) / (2 * count)) ** 2) for i in range(count))
+        return [self._response.row(start + share * (stop - start)) for share in shares]
 
     def at(self, place: Fraction) -> list[arb]:
         """The output of the free functions, then of the base law, at a certificate's place, a share of all the time.
