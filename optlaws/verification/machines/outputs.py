@@ -98,7 +98,7 @@ class OutputRows:
         return [moment / size for moment in moments]
 
     def moments(self) -> list[list[arb]]:
-        """Values of a peak's output, or means of another's times functions of at most 1: enough of them for all laws."""
+        """Values of a peak's output, or means of others times functions of at most 1: enough of these for all laws."""
         start, stop, count = self.exact.start, self.exact.stop, 2 * self._response.laws
         if not isinstance(self.exact.constant, OutputPeak):
             return moments(self._response, start, stop, count)
