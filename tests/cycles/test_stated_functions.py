@@ -41,6 +41,16 @@ def movers(prefix: str = "MC_MotionFunctionType.") -> str:
     )
 
 
+def test_functions_are_read_in_parts_of_units(tmp_path: Path) -> None:
+    file = tmp_path / "movers.st"
+    file.write_text(movers())
+    table = read_cycle_table(file, unit="mm", master="mm", turn="1500 mm", advance="1500 mm")
+    parts = read_cycle_table(file, unit="0.01 mm", master="0.1 mm", turn="150 mm", advance="15 mm")
+    at = np.linspace(0.0, 1500.0, 1501)
+    assert parts.at(0.1 * at) == pytest.approx(0.01 * table.at(at), abs=1e-12)
+    assert [part.stop for part in parts.stretches] == pytest.approx([0.1 * part.stop for part in table.stretches])
+
+
 @pytest.mark.parametrize("prefix", ["MC_MotionFunctionType.", "MC_MotionFunctionType#", ""])
 def test_two_movers_are_lines_and_polynomials_over_a_track(prefix: str, tmp_path: Path) -> None:
     file = tmp_path / "movers.st"
