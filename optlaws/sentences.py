@@ -130,6 +130,15 @@ def parts_of(text: object) -> Any:
     return parts if any(isinstance(part, dict) for part in parts) else "".join(text.parts)
 
 
+def quantity_name(name: str) -> str:
+    """The name of a quantity in texts, from that of files.
+
+    >>> quantity_name("rms torque"), quantity_name("torque")
+    ('RMS torque', 'torque')
+    """
+    return f"RMS{name[3:]}" if name.startswith("rms ") else name
+
+
 def listed(names: Sequence[str], word: str = "and") -> str:
     """Names in a sentence.
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import lru_cache
 from math import inf, pi
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -12,8 +11,9 @@ import numpy as np
 
 from optlaws.cycles.answers import PROVEN_BOUND, Answers
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
+from optlaws.cycles.optimisation.span_values import has_torque_limit
 from optlaws.cycles.placed import Place, limit_rows, overloads
-from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, MOTOR, LimitTaken
+from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, LimitTaken
 from optlaws.cycles.specification.load import is_process, read_load
 from optlaws.cycles.usual_law import usual_cycle
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
@@ -26,10 +26,12 @@ from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_pa
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import MILLI, QUANTITIES, RPM, TURN_DEG, UNITS, Kind
 from optlaws.numbers import Array, bounded, chop
+from optlaws.sentences import quantity_name
 from optlaws.shown.curve_points import refined
 from optlaws.shown.difference import Difference, Differences
 from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
+from optlaws.synthesis.status import Status
 from optlaws.tolerances import CYCLE_ROUNDING, INSIDE_PIECE
 
 if TYPE_CHECKING:
@@ -382,11 +384,26 @@ def proof_rows(plan: Solved) -> list[Row]:
     if not plan.solutions:
         return []
     unit = objective_unit(plan)
-    rows = [Row("status", plan.status.value), Row(f"least {plan.minimise}", plan.objective, unit)]
-    bound = plan.lower_bound
-    none = Row(PROVEN_BOUND, "none is known")
-    rows.append(none if bound is None else Row(plan.lower_bound_name, bound, unit))
+    rows = [Row("status", plan.status.value), Row(f"least {quantity_name(plan.minimise)}", plan.objective, unit)]
+    bound, gap = plan.lower_bound, ""
+    if bound is not None and plan.status is Status.LOCAL and plan.objective > 0.0:
+        gap = f"gap {100.0 * (1.0 - bound / plan.objective):.2g} %"
+    none = Row(PROVEN_BOUND, "none is known", note=_why_no_bound(plan))
+    rows.append(none if bound is None else Row(plan.lower_bound_name, bound, unit, note=gap))
     return [*rows, Row("search space", plan.search_space), *(Row("remark", remark) for remark in plan.remarks)]
+
+
+def _why_no_bound(plan: Solved) -> str:
+    """Why nothing is proven of a drive's force, torque or power; blank of what is of no drive."""
+    drive, kind = plan.specification.in_si.drive, kind_of(plan.minimise)[0]
+    if drive is None:
+        return ""
+    torque = kind in {Kind.FORCE, Kind.HEAT}
+    if torque and not all(has_torque_limit(span, drive) for span, _, _ in plan.laws):
+        return "bounds are of moves from rest to rest under loads that do not change with the time"
+    if drive.train.loses:
+        return "peaks behind a gear with losses are estimated from above, which bounds nothing from below"
+    return "what the load gives back may cover it, as far as energies tell"
 
 
 def peak_rows(plan: Solved) -> list[Row]:
@@ -426,7 +443,7 @@ def drive_rows(plan: Solved) -> list[Row]:
         effort, force, name = plan.effort, FORCE_UNITS[plan.axis], FORCES[plan.axis]
         rows = [
             Row(f"peak of {name}", effort.peak_force, force),
-            Row(f"RMS of {name}", effort.rms_force, force),
+            Row(f"RMS {name}", effort.rms_force, force),
             Row("peak of power", effort.peak_power, "W"),
             Row("mean of power", effort.mean_power, "W"),
             Row("peak torque at the master's shaft", effort.shaft_torque(2.0 * pi / plan.duration), "N m"),
@@ -452,25 +469,18 @@ def overload_rows(plan: Solved) -> list[Row]:
     >>> drive = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2", rated_torque="1 N m"), ratio=20)
     >>> table = Cycle([Rise("45 deg", "0.25 s"), Dwell()], period="0.6 s", advance="45 deg", drive=drive)
     >>> overload_rows(table.solve())[0].value
-    'the motor is overloaded (RMS torque 143 %), and no law was found that is within its limits: give a stronger ...'
+    'the motor is overloaded (RMS torque 143 %): look for laws within its limits by motor = true, or give a ...'
     """
-    uses = ", ".join(f"{each.name} {100.0 * each.use:.3g} %" for each in overloads(plan))
-    if not uses:
+    over = {each.name: f"{each.name} {100.0 * each.use:.3g} %" for each in overloads(plan)}
+    if not over:
         return []
-    none, limit = ", and no law was found that is within its limits", "the limit motor = true, "
-    why, first = ("", limit) if _has_law_within_motor(plan.specification) else (none, "")
-    remedy = f"give {first}a stronger motor, another ratio or more time"
-    return [Row("remark", f"the motor is overloaded ({uses}){why}: {remedy}")]
-
-
-@lru_cache(maxsize=16)
-def _has_law_within_motor(cycle: Specification) -> bool:
-    """Whether the limits of the motor leave the cycle a law: a remedy is tried before it is offered."""
-    try:
-        replace(cycle, limits={**cycle.limits, MOTOR: True}).solve()  # type: ignore[attr-defined] # a Cycle
-    except OptlawsError:
-        return False
-    return True
+    # laws that have the least of what is too much are within no limit of it
+    kind, mean = kind_of(plan.minimise)
+    least = "RMS torque" if mean or kind is Kind.HEAT else "peak torque"
+    hopeless = plan.solutions and kind in {Kind.FORCE, Kind.HEAT} and least in over
+    within = "" if hopeless else "look for laws within its limits by motor = true, or "
+    text = f"the motor is overloaded ({', '.join(over.values())}): {within}"
+    return [Row("remark", f"{text}give a stronger motor, another ratio or more time")]
 
 
 def load_work_rows(plan: Solved) -> list[Row]:

@@ -78,7 +78,7 @@ from optlaws.motion.quantities import MICRO, MILLI, TURN, TURN_DEG, Exact
 from optlaws.numbers import chop
 from optlaws.plots.cam import animated, barrel_figure, cam_figure, forces_figure, pair_figure
 from optlaws.results import Results
-from optlaws.sentences import Amount, capital, sentence
+from optlaws.sentences import Amount, capital, quantity_name, sentence
 from optlaws.shown.report import ReportTable, Section
 from optlaws.shown.summary import Row
 from optlaws.studies.problem_entries import steady
@@ -407,7 +407,7 @@ class CamResult:
     def _best(self) -> list[Row]:
         """The quality of the laws that were optimised for the cam; nothing where they are the cycle's own."""
         best, cycle, rows = self.sought, self.spec.cycle, list[Row]()
-        name, unit = cycle.minimise, objective_unit(cycle)
+        name, unit = quantity_name(cycle.minimise), objective_unit(cycle)
         if isinstance(best, BestCam):
             rows = [
                 Row(f"least {name} under the limits of the cam", (best.objective, best.lower_bound), unit),
@@ -670,7 +670,7 @@ def _laws_section(plan: Plan, best: Sequence[Row] = ()) -> Section:
     ]
     rows = list(best)
     if not rows and plan.solutions:
-        least = f"least {plan.minimise}"
+        least = f"least {quantity_name(plan.minimise)}"
         rows = [Row(least, (plan.objective, plan.lower_bound), objective_unit(plan), note=plan.status.value)]
     rows = [row._replace(note=_with_gap(row)) for row in rows]
     table = ReportTable.of_pairs(rows, "value", "lower bound", "status") if rows else None

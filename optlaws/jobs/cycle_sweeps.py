@@ -20,6 +20,7 @@ from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, SweepEntri
 from optlaws.laws.catalogue.reading import with_files
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.quantities import RPM
+from optlaws.sentences import quantity_name
 from optlaws.shown.report import ReportTable
 from optlaws.shown.steps import step
 from optlaws.synthesis.status import Status
@@ -233,8 +234,8 @@ def with_entry(axis: dict[str, Any], entry: str, value: str | float, folder: Pat
 
 
 def _least(cycle: Cycle) -> str:
-    """What is least, such as "least rms torque"."""
-    return f"least {cycle.minimise}"
+    """What is least, such as "least RMS torque"."""
+    return f"least {quantity_name(cycle.minimise)}"
 
 
 def _with_unit(cycle: Cycle) -> str:

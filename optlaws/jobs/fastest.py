@@ -26,6 +26,7 @@ from optlaws.motion.quantities import UNITS, Exact
 from optlaws.numbers import NumberOrQuantity, Quantity, chop
 from optlaws.plots.moves import fronts_figure, motion_figure, strokes_figure
 from optlaws.results import Page, Results
+from optlaws.sentences import quantity_name
 from optlaws.shown.steps import step
 from optlaws.studies.problem_entries import gap, problem, steady
 from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS
@@ -138,7 +139,7 @@ def _front(
     quickest: FastestMove, move: MoveEntries, minimise: str, given: dict[str, Any], extent: tuple[Any, int]
 ) -> TimeFront:
     """The front of a move; of a vibration, where no longest time is given, only as far as it leaves something."""
-    step(f"move {move.name}: least {minimise}")
+    step(f"move {move.name}: least {quantity_name(minimise)}")
     front = front_of(quickest, move, minimise, given, extent)
     calm = next((point.duration for point in front if point.value <= _NOTHING * front[0].value), inf)
     if extent[0] is None and minimise in RESIDUALS and front.durations[0] < calm < front.durations[-1]:
@@ -257,7 +258,7 @@ def _in_words(front: TimeFront) -> str:
         share = f"falls to next to nothing {longer}" if first.value else "is 0 in the least time already"
     else:
         share = f"falls by {_PERCENT * (1.0 - later.value / first.value):.0f} % {longer}"
-    return f"The least {front.minimise} {share}. {proven}."
+    return f"The least {quantity_name(front.minimise)} {share}. {proven}."
 
 
 def _points(front: TimeFront) -> list[list[Cell]]:

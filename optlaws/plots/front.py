@@ -10,7 +10,7 @@ import numpy as np
 
 from optlaws.motion.quantities import MILLI
 from optlaws.plots.style import BLUES, GREY, WARM, name_point, new_axes
-from optlaws.sentences import listed
+from optlaws.sentences import listed, quantity_name
 from optlaws.synthesis.report import axis_label
 
 if TYPE_CHECKING:
@@ -111,7 +111,7 @@ def draw_time_front(front: TimeFront, axes: Axes | None = None, **style: Any) ->
         below = np.maximum(lower, foot)
         bound = axes.plot(MILLI * times, below, color=GREY, linewidth=0.0, marker="_", label="lower bound")
     least = axes.axvline(MILLI * front.fastest.duration, color=WARM, linewidth=1.0, linestyle="--", label="least time")
-    axes.set(xlabel="time of the move, ms", ylabel=f"least {front.minimise},\n{front.unit}")
+    axes.set(xlabel="time of the move, ms", ylabel=f"least {quantity_name(front.minimise)},\n{front.unit}")
     if foot:
         axes.set_yscale("log")
     axes.set_ylim(bottom=foot)

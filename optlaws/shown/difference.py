@@ -8,7 +8,7 @@ from math import isfinite
 from typing import Any, NamedTuple
 
 from optlaws.numbers import bounded
-from optlaws.sentences import Amount, sentence
+from optlaws.sentences import Amount, quantity_name, sentence
 from optlaws.shown.report import ReportTable, Section
 from optlaws.shown.summary import PAGE_UNITS, Row
 
@@ -98,9 +98,9 @@ class Differences:
     def remarks(self) -> tuple[str, ...]:
         """What the usual law is better in by far, or in the objective at all, each with what to do about it."""
         remarks, far, in_one_time = list[str](), list[Difference](), True
-        for each in self.values:
+        for each in (value._replace(name=quantity_name(value.name)) for value in self.values):
             change = each.change or 0.0
-            if each.name == self.objective:
+            if each.name == quantity_name(self.objective):
                 # laws of a least time are quicker: what is greater for that needs no remark
                 in_one_time = each.unit != "s"
                 if change >= _SAME:
@@ -164,7 +164,7 @@ def _in_shown_unit(each: Difference) -> Difference:
     """A difference in the unit in which pages show its dimension."""
     unit, factor = PAGE_UNITS.get(each.unit, (each.unit, 1.0))
     usual, chosen = (None if value is None else factor * value for value in (each.usual, each.chosen))
-    return each._replace(unit=unit, usual=usual, chosen=chosen)
+    return each._replace(name=quantity_name(each.name), unit=unit, usual=usual, chosen=chosen)
 
 
 def _note(change: str, usual: str, value: Amount) -> str:

@@ -62,7 +62,7 @@ def test_the_curve_is_drawn_once_by_the_limit_of_which_most_is_taken(served: Ser
     # the curve goes through its greatest value
     torque = [abs(value) for value in answer["panels"][4]["series"][0]["values"]]
     assert law_view.digits(max(torque), 5) == law_view.digits(motor["torque"]["value"]["value"], 5)
-    least = f"least rms torque in this time {motor['RMS torque']['value']['value']:.6g}"
+    least = f"least RMS torque in this time {motor['RMS torque']['value']['value']:.6g}"
     assert written(answer["trust"]["facts"][0]).startswith(least)
 
 

@@ -25,7 +25,7 @@ from optlaws.cycles.report import objective_unit
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import TURN_DEG, UNITS
 from optlaws.numbers import Array
-from optlaws.sentences import joined
+from optlaws.sentences import joined, quantity_name
 from optlaws.shown.curve_points import refined
 from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
@@ -82,7 +82,7 @@ class AxesReport:
             for name, status, value, _, unit, angle, margin in (least.cells for least in self.clearances)
         )
         laws = (
-            Row(f"{name}: least {cycle.minimise} for its times", cycle.objective, objective_unit(cycle),
+            Row(f"{name}: least {quantity_name(cycle.minimise)} for its times", cycle.objective, objective_unit(cycle),
                 note=cycle.status.value)
             for name, cycle in self.cycles.items() if cycle.solutions
         )  # fmt: skip

@@ -28,6 +28,7 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import Exact, Kind, quantity
 from optlaws.numbers import NumberOrQuantity, Quantity, bounded, listed, positive, real
+from optlaws.sentences import quantity_name
 from optlaws.spelling import either_spelling
 from optlaws.synthesis.least_time.move_limits import RESIDUAL, RESIDUALS, TimedLimit, power
 from optlaws.synthesis.least_time.timed_move import AT_MOTOR, OBJECTIVES, MoveObjective, TimedMove
@@ -217,7 +218,7 @@ class TimeFront(JsonText):
     @property
     def headings(self) -> tuple[str, ...]:
         """Headings of the columns of `rows`."""
-        return ("time, s", f"{self.minimise}, {self.unit}", f"lower bound, {self.unit}", "gap", "status")
+        return ("time, s", f"{quantity_name(self.minimise)}, {self.unit}", f"lower bound, {self.unit}", "gap", "status")
 
     @property
     def rows(self) -> list[list[float | str]]:
@@ -231,7 +232,9 @@ class TimeFront(JsonText):
         """The rows and their headings as CSV."""
         from optlaws.files.tables import to_csv
 
-        return to_csv(self.headings, self.rows, about=f"least {self.minimise} over the time of a move", digits=12)
+        return to_csv(
+            self.headings, self.rows, about=f"least {quantity_name(self.minimise)} over the time of a move", digits=12
+        )
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the front with its proven lower bound into matplotlib's axes, new ones by default; returns the artists.
@@ -288,7 +291,7 @@ class TimeFront(JsonText):
     def _repr_html_(self) -> str:
         from optlaws.shown.showing import drawing, page, table
 
-        curve = drawing(f"{self.minimise}, {self.unit}", self.durations, self.values)
+        curve = drawing(f"{quantity_name(self.minimise)}, {self.unit}", self.durations, self.values)
         cells = [[f"{cell:.7g}" if isinstance(cell, float) else cell for cell in row] for row in self.rows]
         return page("TimeFront", table(self.headings, cells), curve)
 

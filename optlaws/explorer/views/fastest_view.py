@@ -26,7 +26,7 @@ from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile
 from optlaws.jobs.fastest import FastestProblemFile, MoveEntries, arguments_of, front_of
 from optlaws.motion.quantities import MILLI, Exact, quantity
 from optlaws.numbers import Array, NumberOrQuantity, bounded
-from optlaws.sentences import Amount
+from optlaws.sentences import Amount, quantity_name
 from optlaws.shown.summary import Row
 from optlaws.studies.problem_entries import problem
 from optlaws.synthesis.least_time.move_limits import RESIDUALS
@@ -103,7 +103,7 @@ def front(request: CycleRequest) -> dict[str, Any]:
         return {"points": [], "words": "choose what is to be least in longer times"}
     points, unit, proven = search.points()
     proof = "proven at every point" if proven else "local, with its bound"
-    words = f"least {search.minimise} in each {search.word}: {proof}"
+    words = f"least {quantity_name(search.minimise)} in each {search.word}: {proof}"
     return {"points": points, "name": search.minimise, "unit": unit, "proven": proven, "words": words}
 
 
@@ -173,7 +173,7 @@ def _of_move(move: MoveEntries, entries: str) -> _Search:
             return MoveReport(least, least.law, least.duration, drive, start), trust, []
         front = line(Exact(time, "s"), 2)
         solution, point = front.solutions[1], front[1]
-        rows = [Row(f"least {minimise} in this time", point.value, front.unit)]
+        rows = [Row(f"least {quantity_name(minimise)} in this time", point.value, front.unit)]
         if bounded(point.lower_bound) is not None:
             rows.append(Row("lower bound", point.lower_bound, front.unit))
         trust = verdict(solution.status, gap_text(solution.gap), [*fact_sentences(rows), *facts])

@@ -27,6 +27,7 @@ from optlaws.mechanisms.linkages.mechanism import INPUTS, MechanismReport
 from optlaws.mechanisms.linkages.mechanism_kinds import MechanismKind
 from optlaws.motion.quantities import MILLI, RPM, quantity
 from optlaws.numbers import Array, bounded
+from optlaws.sentences import quantity_name
 from optlaws.shown.summary import Row
 
 _EACH = 240
@@ -192,7 +193,7 @@ def ratios(request: CycleRequest) -> dict[str, Any]:
     if searched:
         proven = all(cycle.status is Status.OPTIMAL for cycle in searched)
         bound = "proven" if proven else "no law that never turns back is below the dashed line"
-        words = f"least {searched[0].minimise} at each ratio: {bound}"
+        words = f"least {quantity_name(searched[0].minimise)} at each ratio: {bound}"
     return {
         "ratios": places,
         "laws": [{"rms": _of(course, "rms_force"), "peak": _of(course, "peak_force")} for course in laws],
