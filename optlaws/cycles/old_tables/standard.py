@@ -27,6 +27,8 @@ _DAMPING, _MOST_DAMPING = 1e-3, 1e9
 _RANKED_BY, _COMPARED, _COMBINED = 60, 4, 3
 #: rows by which chains are compared, and how many of the best of these are fitted to all rows
 _COMPARED_BY, _FITTED = 240, 6
+#: mean of squares from which on no chain is near the rows, and the best one alone is of interest
+_FAR_OFF = 100.0
 #: of the length of a chain: its moves are longer
 _APART = 1e-9
 #: even places between which laws are interpolated where they are compared
@@ -217,10 +219,11 @@ class Outline:
         best = [self._ranked(move)[:compared] for move in range(moves)]
         outline = self._resting(resting) if resting else self
         chains = [tuple(_woven(names, [""] * (moves - 1) if resting else [])) for names in product(*best)]
-        if len(chains) > _FITTED:
-            some = outline.of_rows(slice(None, None, max(1, len(self.x) // _COMPARED_BY)))
-            chains.sort(key=lambda names: some.fitted(names, _interpolated, _CLOSE_STEPS).squares)
-        return sorted((outline.exactly(names) for names in chains[:_FITTED]), key=lambda chain: chain.squares)
+        some = outline.of_rows(slice(None, None, max(1, len(self.x) // _COMPARED_BY)))
+        squares = {names: some.fitted(names, _interpolated, _CLOSE_STEPS).squares for names in chains}
+        chains.sort(key=squares.__getitem__)
+        fitted = _FITTED if squares[chains[0]] < _FAR_OFF * len(some.x) else 1
+        return sorted((outline.exactly(names) for names in chains[:fitted]), key=lambda chain: chain.squares)
 
     def of_rows(self, rows: slice | NDArray[np.intp]) -> Outline:
         """The outline with some of its rows."""

@@ -44,6 +44,7 @@ from optlaws.sentences import Amount, joined, sentence
 from optlaws.tolerances import AGREEMENT
 
 _TIMES = {"s", "ms"}
+_USELESS = 10.0  # times the lower end of an interval: an upper end that is more tells nothing
 _MOST_NAMED = 8  # places that a remark lists
 _MOVING = 1e-3  # of the greatest velocity of a stretch: it begins with one that is more
 _WHOLE_TURN = 1e-6  # of a turn: by how much rows that are one may be longer or shorter
@@ -375,7 +376,7 @@ class OldTable:
         if f"{low:.4g}" == f"{high:.4g}":
             return sentence("{} {}", QUANTITIES[nu], Amount(low, self.unit_of(nu), 4))
         least, most = (Amount(value, self.unit_of(nu), 4) for value in (low, high))
-        if high == inf:
+        if high > _USELESS * low:
             return sentence("{} above {}, how much cannot be known from this table", QUANTITIES[nu], least)
         return sentence("{} {} to {}", QUANTITIES[nu], f"{low:.4g}", most)
 
