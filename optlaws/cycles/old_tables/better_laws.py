@@ -185,14 +185,9 @@ def _better(
 
 def _with_least(part: Stretch, old: MotionLaw, share: float, order: int, degree: int, ends: Ends) -> Stretch:
     """A move with the law of least acceleration between its ends, or why it keeps its law."""
-    try:
-        solution = _least(old, share, order, degree, ends)
-    except InfeasibleProblem:
-        return replace(part, reason=f"no law of order {order} and degree {degree} is so near")
-    except SolverFailure:
-        return replace(part, reason=f"the search for a law of order {order} and degree {degree} so near failed")
-    if solution is None:
-        return replace(part, reason=f"none of order {order} and degree {degree} so near has less")
+    solution = _least_or_reason(old, share, order, degree, ends)
+    if isinstance(solution, str):
+        return replace(part, reason=solution)
     return replace(part, law=solution.law, solution=solution, peaks=())
 
 
@@ -310,11 +305,8 @@ def _with_enough(part: Stretch, old: MotionLaw, share: float, order: int, degree
     """A move with a tolerance within which a law is better, and by how much; as it is where none was found."""
     before = _acceleration_before(old, ends)
     while (share := 2.0 * share) <= _MOST:
-        try:
-            solution = _least(old, share, order, degree, ends)
-        except (InfeasibleProblem, SolverFailure):
-            continue
-        if solution is not None:
+        solution = _least_or_reason(old, share, order, degree, ends)
+        if not isinstance(solution, str):
             less = 1.0 - solution.law.constants.C.value / before
             return replace(part, sufficient_tolerance=share * abs(part.stroke), sufficient_gain=less)
     return part
@@ -327,6 +319,16 @@ def _acceleration_before(old: MotionLaw, ends: Ends) -> float:
 
 
 @lru_cache(maxsize=256)
+def _least_or_reason(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) -> Solution | str:
+    """The law of least acceleration within a share of the stroke of an old one, or why there is none."""
+    try:
+        return _least(old, share, order, degree, ends) or f"none of order {order} and degree {degree} so near has less"
+    except InfeasibleProblem:
+        return f"no law of order {order} and degree {degree} is so near"
+    except SolverFailure:
+        return f"the search for a law of order {order} and degree {degree} so near failed"
+
+
 def _least(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) -> Solution | None:
     """The law of least acceleration within a share of the stroke of an old one; None where none has less.
 
