@@ -133,14 +133,18 @@ class CamReport:
             ("least radius of curvature, concave", "concave_radius", extremes.least_concave_radius, "mm", None),
         ]
 
+    @property
+    def pressed(self) -> bool:
+        """Whether the follower has a pressure angle anywhere."""
+        return bool(self.cam.extremes.greatest_pressure_angle.value > SMALLEST_ANGLE)
+
     @kept_property
     def extremes(self) -> list[Row]:
         """Extreme pressure angles, where there are any but 0, least radii of curvature, and sizes of the follower."""
-        pressed = self.cam.extremes.greatest_pressure_angle.value > SMALLEST_ANGLE
         rows = [
             extreme_row(name, extreme, unit, limit)
             for name, _, extreme, unit, limit in self._enclosed
-            if extreme is not None and (pressed or unit != "deg")
+            if extreme is not None and (self.pressed or unit != "deg")
         ]
         return rows + [extreme_row(size.name, size.extreme, "mm") for size in self.cam.extremes.sizes]
 
@@ -205,7 +209,10 @@ class CamReport:
 
     @property
     def panels(self) -> tuple[Panel, ...]:
-        """Displacement, pressure angle, curvature and radius of curvature, each with its greatest or least value."""
+        """Displacement, pressure angle, curvature and radius of curvature, each with its greatest or least value.
+
+        A flat face that is square to its way has no pressure angle.
+        """
         cam, (unit, factor) = self.cam, UNITS[self.cam.displacement.axis][0]
         steepest, bulging = cam.extremes.greatest_pressure_angle, cam.extremes.least_convex_radius
         limit = np.inf if self.limits.pressure is None else DEGREES * self.limits.pressure
@@ -219,9 +226,10 @@ class CamReport:
         pressure = self._panel(
             "pressure angle", "deg", lambda at: np.degrees(cam.pressure_angle(at)), ((steepest.angle, steep),)
         )
+        limited = replace(pressure, limits=(PanelLimit(0.0, TURN, -limit, limit),) if limit < np.inf else ())
         return (
             self._panel("displacement", unit, lambda at: factor * np.asarray(cam.displacement(at))),
-            replace(pressure, limits=(PanelLimit(0.0, TURN, -limit, limit),) if limit < np.inf else ()),
+            *([limited] if self.pressed else []),
             self._panel("curvature", "1/mm", lambda at: np.asarray(cam.profile.curvature(at)) / MILLI),
             self._panel("radius of curvature", "mm", radius, ((bulging.angle, MILLI * bulging.value),)),
         )

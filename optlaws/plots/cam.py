@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
 _OUTLINE_DRAWN = 1e-5  # m: by so much the outline of an animated cam may be off
 
-PANELS = ("displacement", "pressure angle", "curvature")
 _SHOWN = 8  # followers around the cam
 _SAMPLES = 721
 _FILL = "#dfe9f3"
@@ -39,12 +38,11 @@ _BESIDE: dict[str, Any] = {"color": GREY, "linewidth": 1.1, "linestyle": (0, (4,
 def cam_figure(cam: DiscCam, title: str, usual: tuple[str, DiscCam] | None = None) -> Figure:
     """The cam and what its follower does, as a figure; beside it what a cam with the usual law of a name does."""
     with plot_style():
-        figure, panels = _figure()
+        figure, panels = _figure(len(CamReport(cam).panels) - 1)
         if usual is not None:
             name, other = usual
             _draw_profile(other, panels[0], _BESIDE | {"label": name})
-            beside = CamReport(other)
-            for panel, axes in zip(beside.panels, panels[1:], strict=False):
+            for panel, axes in zip(CamReport(other).panels, panels[1:], strict=False):
                 draw_panel(panel, axes, **_BESIDE)
         draw_cam(cam, panels)
         figure.align_ylabels(panels[1:])
@@ -168,26 +166,27 @@ def _unrolled(curve: SpaceCurve, angles: Array, pitch: SpaceCurve) -> tuple[Arra
 def draw_cam(cam: DiscCam, axes: Any = None, **style: Any) -> list[Artist]:
     """Draw a cam with its follower around it, and displacement, pressure angle and curvature over the cam's angle.
 
-    Into one pair of axes the cam alone is drawn.
+    Into one pair of axes the cam alone is drawn; without a pressure angle three are enough for all.
     """
+    report = CamReport(cam)
+    # the radius of curvature says in mm what the curvature does
+    drawn = report.panels[:-1]
     if axes is None:
         with plot_style():
-            axes = _figure()[1]
+            axes = _figure(len(drawn))[1]
     panels = list(np.ravel(np.asarray(axes, dtype=object)))
-    if len(panels) not in {1, 1 + len(PANELS)}:
-        raise InputError(f"a cam is drawn into one pair of axes or into four, got {len(panels)}")
+    if len(panels) not in {1, 1 + len(drawn)}:
+        most = "four" if len(drawn) == 3 else "three"
+        raise InputError(f"a cam is drawn into one pair of axes or into {most}, got {len(panels)}")
     artists = _draw_mechanism(cam, panels[0], {"color": BLUES[3]} | style)
-    if len(panels) > 1:
-        report = CamReport(cam)
-        artists += _draw(report, report.panels[: len(PANELS)], panels[1:], **style)
-    return artists
+    return artists if len(panels) == 1 else artists + _draw(report, drawn, panels[1:], **style)
 
 
-def _figure() -> tuple[Figure, list[Axes]]:
+def _figure(rows: int) -> tuple[Figure, list[Axes]]:
     figure = new_figure(10.4, 5.6)
-    grid = figure.add_gridspec(len(PANELS), 2, width_ratios=(1.15, 1.0))
+    grid = figure.add_gridspec(rows, 2, width_ratios=(1.15, 1.0))
     right: list[Axes] = []
-    for row in range(len(PANELS)):
+    for row in range(rows):
         right.append(figure.add_subplot(grid[row, 1], sharex=right[0] if right else None))
     for edge in right[:-1]:
         edge.tick_params(labelbottom=False)

@@ -374,8 +374,11 @@ def test_a_cam_is_drawn_where_its_follower_touches_it(file: str) -> None:
         offset = float(study["follower"].get("offset", "0 mm").split()[0])
         assert centres.real == pytest.approx(offset, abs=1e-3)
     worst = degrees(cam.extremes.greatest_pressure_angle.value)
-    assert abs(view["panels"][1]["peaks"][0]["value"]) == pytest.approx(worst)
-    assert max(abs(one) for one in view["panels"][1]["series"][0]["values"]) <= worst + 1e-6
+    pressures = [panel for panel in view["panels"] if "pressure angle" in str(panel)]
+    assert len(pressures) == (worst > 0.0)
+    for pressure in pressures:
+        assert abs(pressure["peaks"][0]["value"]) == pytest.approx(worst)
+        assert max(abs(one) for one in pressure["series"][0]["values"]) <= worst + 1e-6
 
 
 def test_the_loads_of_a_cam_are_those_of_the_library() -> None:

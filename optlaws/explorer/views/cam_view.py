@@ -38,11 +38,12 @@ def answer(request: CycleRequest) -> dict[str, Any]:
     """The view of a cam, or the reason why there is none."""
     result = result_of(request)
     spec, cam, report = result.spec, result.cam, result.report
-    displacement, pressure, _, radius = (panel_data(panel) for panel in report.panels)
-    pressure["beyond"] = PRESSURE in spec.limits.broken(cam.extremes)
+    *motion, _, radius = (panel_data(panel) for panel in report.panels)
+    for pressure in motion[1:]:
+        pressure["beyond"] = PRESSURE in spec.limits.broken(cam.extremes)
     return drawing(cam, spec.cutter_radius) | {
         "dimensions": _dimensions(spec, cam),
-        "panels": [displacement, pressure, radius],
+        "panels": [*motion, radius],
         "across": "angle of the cam",
         "unit": "deg",
         "segments": [],

@@ -16,7 +16,9 @@ def test_a_cam_is_drawn_to_scale_with_its_follower_around_it(kind: str) -> None:
     drawn = np.array(profile.get_xydata())
     assert drawn[[0, -1]] == pytest.approx(1e3 * cam.profile(np.array([0.0, 2 * np.pi])))
     labels = [curve.axes.get_ylabel() for curve in curves]
-    assert labels[1:] == ["pressure angle, deg", "curvature, 1/mm"]
+    # a face that is square to its way has none
+    pressure = [] if kind == "translating flat" else ["pressure angle, deg"]
+    assert labels[1:] == [*pressure, "curvature, 1/mm"]
     followers = len(profile.axes.patches if cam.contact.roller else profile.axes.lines)
     assert followers >= 8
     assert profile.get_color() == "black"
