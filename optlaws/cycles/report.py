@@ -22,7 +22,7 @@ from optlaws.kept import kept_property
 from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
-from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel, times_in
+from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel, picture_unit, times_in
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import MILLI, QUANTITIES, RPM, TURN_DEG, UNITS, Kind
 from optlaws.numbers import Array, bounded, chop
@@ -126,7 +126,8 @@ class CycleReport:
     @property
     def panels(self) -> tuple[Panel, ...]:
         """Position, velocity, acceleration and jerk; with a drive its force (or torque) and its power."""
-        return (*(self.panel(nu) for nu in range(len(QUANTITIES))), *self.driven)
+        axis = self.plan.axis
+        return (*(self.panel(nu, picture_unit(axis, nu)) for nu in range(len(QUANTITIES))), *self.driven)
 
     @kept_property
     def driven(self) -> tuple[Panel, ...]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from optlaws.motion.piece import Piece, unit_of
-from optlaws.motion.quantities import QUANTITIES, UNITS
+from optlaws.motion.quantities import DEGREES, QUANTITIES, UNITS
 from optlaws.numbers import Array, chop
 from optlaws.shown.curve_points import away_from, refined
 from optlaws.shown.report import Panel, PanelLimit, Series
@@ -23,6 +23,17 @@ DERIVATIVES = (*QUANTITIES, "snap")
 def display_unit(axis: str, nu: int) -> tuple[str, float]:
     """The unit in which a derivative is shown, and how many of it are one of SI."""
     return UNITS[axis][nu] if nu < len(QUANTITIES) else (unit_of(axis, nu), 1.0)
+
+
+def picture_unit(axis: str, nu: int) -> tuple[str, float]:
+    """The unit of a derivative in pictures of all: degrees of an angle, by whatever time, as its position has them.
+
+    >>> picture_unit("angle", 2)[0], picture_unit("length", 2)[0]
+    ('deg/s²', 'm/s²')
+    """
+    if axis == "length":
+        return display_unit(axis, nu)
+    return unit_of(axis, nu).replace("rad", "deg"), DEGREES
 
 
 def motion_panel(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optlaws.cycles.moves.fastest_move import AXES
+from optlaws.motion.derivative_panel import picture_unit
 from optlaws.motion.quantities import MILLI, QUANTITIES, UNITS
 from optlaws.plots.front import draw_time_front
 from optlaws.plots.law import four
@@ -106,7 +107,7 @@ def draw_transition(
     still = [first - _STILL * (last - first), first] if cam.kind == "run-in" else [last, last + _STILL * (last - first)]
     artists: list[Artist] = []
     for nu, panel in enumerate(panels):
-        unit, size = UNITS[cam.axis][nu]
+        unit, size = picture_unit(cam.axis, nu)
         if cycle is not None:
             artists += panel.plot(*_of_cycle(cam, cycle, nu, size), color=BLUES[3], label="cycle")
         panel.plot(still, [size * cam.rest * (nu == 0)] * 2, color=GREY)

@@ -22,7 +22,7 @@ from optlaws.laws.catalogue.catalogue import USUAL, catalogue
 from optlaws.laws.law import LawExport
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.drives.effort import DriveSheet, PieceEffort
-from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel
+from optlaws.motion.derivative_panel import DERIVATIVES, motion_panel, picture_unit
 from optlaws.motion.motion import Exportable, Motion, motion_of_pieces
 from optlaws.motion.piece import Piece, unit_of
 from optlaws.motion.quantities import DEGREES, QUANTITIES, Exact, quantity
@@ -93,7 +93,7 @@ def panels_of(piece: Piece, axis: str, limits: Mapping[int, tuple[float, float]]
     for nu in range(1 + max((len(QUANTITIES) - 1, *limits))):
         limited = [PanelLimit(piece.start, piece.stop, *limits[nu])] if nu in limits else ()
         extremes = piece.extremes(nu, piece.start, piece.stop)
-        panels.append(motion_panel([piece], nu, display_unit(axis, nu), extremes, limited))
+        panels.append(motion_panel([piece], nu, picture_unit(axis, nu), extremes, limited))
     return panels
 
 
