@@ -133,10 +133,13 @@ def parts_of(text: object) -> Any:
 def quantity_name(name: str) -> str:
     """The name of a quantity in texts, from that of files.
 
-    >>> quantity_name("rms torque"), quantity_name("torque")
-    ('RMS torque', 'torque')
+    >>> quantity_name("rms torque"), quantity_name("root mean square of the torque"), quantity_name("torque")
+    ('RMS torque', 'RMS torque', 'torque')
     """
-    return f"RMS{name[3:]}" if name.startswith("rms ") else name
+    for word in ("rms ", "root mean square of the "):
+        if name.startswith(word):
+            return f"RMS {name.removeprefix(word)}"
+    return name
 
 
 def listed(names: Sequence[str], word: str = "and") -> str:

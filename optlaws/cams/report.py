@@ -387,7 +387,7 @@ def forces_section(forces: CamForces, pressed: str = "") -> Section:
         first, last = (chop(degrees(at), TURN_DEG, FORCE_ROUNDING) for at in (curve.least_at, curve.most_at))
         table.append([name, least, first, most, last, unit])
         facts.append(Row(name, (least, most), unit))
-    facts.append(Row("root mean square of the torque", mean_square, "N m"))
+    facts.append(Row("RMS torque", mean_square, "N m"))
     left = leaves(forces)
     if left:
         facts.insert(0, Row(left, place=_least_contact_at(forces)))
@@ -400,7 +400,7 @@ def forces_section(forces: CamForces, pressed: str = "") -> Section:
         note=joined(
             " ",
             [
-                f"Torque at the shaft: root mean square {mean_square:.{DIGITS}g} N m, mean {mean:.{DIGITS}g} N m.",
+                f"Torque at the shaft: RMS {mean_square:.{DIGITS}g} N m, mean {mean:.{DIGITS}g} N m.",
                 *([] if left else ["The follower stays on the cam."]),
                 *([pressed] if pressed else []),
                 *([] if forces.width is None else [Surfaces(materials=forces.materials).assumed]),

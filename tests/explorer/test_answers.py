@@ -394,7 +394,7 @@ def test_the_loads_of_a_cam_are_those_of_the_library() -> None:
         forces.shaft_torque(np.radians(55.0)), abs=1e-6
     )
     assert max(pressure["series"][0]["values"]) <= 1e-6 * forces.pressure.high
-    assert f"root mean square of the torque {forces.rms_torque[1]:.5g} N m" in results["facts"]
+    assert f"RMS torque {forces.rms_torque[1]:.5g} N m" in results["facts"]
     (spring,) = (fact for fact in results["facts"] if fact.startswith("least spring without lift-off: stiffness "))
     assert "preload 0.4 N" in spring
     light = study | {"motion": study["motion"] | {"drive": {"mass": "20 kg"}}}
