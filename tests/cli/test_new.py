@@ -201,9 +201,9 @@ def test_a_drive_begins_with_nothing_worse_than_by_modified_sine(capsys: Capture
     assert exit_code(["run", "a.toml"]) == 0
     rows = re.findall(r"(?m)^\| ([\w ]+?) +\| [\d.]+ +\| [\d.]+ +\| (same|[-+][\d.]+) ", capsys.readouterr().out)
     gains = {name: 0.0 if gain == "same" else float(gain) for name, gain in rows}
-    assert {"torque", "rms torque", "power", "energy", "velocity"} <= gains.keys()
+    assert {"torque", "RMS torque", "power", "energy", "velocity"} <= gains.keys()
     assert max(gains.values()) <= 0.0
-    assert min(gains["rms torque"], gains["power"], gains["energy"]) < -1.0
+    assert min(gains["RMS torque"], gains["power"], gains["energy"]) < -1.0
 
 
 @pytest.mark.parametrize(
@@ -222,7 +222,7 @@ def test_a_cam_begins_with_less_torque_at_its_shaft_than_by_modified_sine(number
     assert "The follower stays on the cam." in page
     rows = re.findall(r"(?m)^\| ([\w ']+?) +\| [\d.]+ +\| [\d.]+ +\| (same|[-+][\d.]+) ", page)
     gains = {name: 0.0 if gain == "same" else float(gain) for name, gain in rows}
-    assert {"greatest contact force", "root mean square of the torque", "prime circle"} <= gains.keys()
+    assert {"greatest contact force", "RMS torque", "prime circle"} <= gains.keys()
     assert max(gains.values()) <= 0.0
     assert gains["peak torque at the shaft"] < -12.0
     assert gains["least prime circle"] <= 0.0
