@@ -35,6 +35,10 @@ _AS_GOOD = 0.8
 _MOST_JOINTS = 8
 #: how many numbers of pieces are tried without a jump of the acceleration at rests
 _MORE = 6
+#: of a step: about a joint it is looked for within less and less
+_WIDTHS = (2.0, 0.5, 0.12, 0.03, 0.008, 0.002)
+#: how often joints and ends are placed by each other
+_SETTLED = 2
 #: how many models with more pieces than the best one are looked at beside it
 _FINER = 2
 #: by how much the criterion of Schwarz must fall for a joint to be there
@@ -48,6 +52,7 @@ _LOOKS = np.array([0.0, *2.0 ** np.arange(-8.0, 1.0)])
 #: of a step: how near the ends of rests are looked for, in the end and in searches
 _FINE, _ROUGH = 0.02, 0.2
 #: degrees of one polynomial for a whole move, and how many derivatives it may have in common with the rests beside it
+_FEW_DEGREES = 15  # a polynomial of more is looked at beside joints
 _DEGREES, _CONTACTS = range(7, 34, 2), (3, 2)
 #: of a step: ends of rests beside one polynomial are no nearer; and how often they are moved at most
 _EXACT, _ENDS_MOVED = 1e-9, 40
@@ -407,7 +412,7 @@ class _Fitter:
         """Joints moved to where the sum of squares is least."""
         moved = list(joints)
         step = float(np.median(np.diff(self.x)))
-        for width in (2.0, 0.5, 0.12):
+        for width in _WIDTHS:
             for i, joint in enumerate(moved):
                 tried = joint.place + width * step * np.linspace(-1.0, 1.0, 7)
                 squares = []
@@ -463,12 +468,10 @@ def fits_of(
     best = rough.best(fits)
     polynomials = rough.polynomials((best.start, best.stop)) if best.pieces > _SIMPLE else []
     plain = [fit for fit in polynomials if rough.criterion(fit) < rough.criterion(best)]
-    if plain and likely(rough.best(plain).squares, rough.rows):
-        refined = [_refined(fitter, fit) for fit in rough.accepted(polynomials)]
-        if likely(min(fit.squares for fit in refined), len(places)):
-            return rough.with_jumps(refined)
+    explaining = plain if plain and likely(rough.best(plain).squares, rough.rows) else []
+    few = bool(explaining) and rough.best(plain).degree <= _FEW_DEGREES
     joints: tuple[Joint, ...] = ()
-    while not simple and len(joints) < _MOST_JOINTS and rough.best(fits).pieces > _SIMPLE:
+    while not simple and not few and len(joints) < _MOST_JOINTS and rough.best(fits).pieces > _SIMPLE:
         families = [each for pieces in _COARSE if (each := rough.joined(fits, joints, pieces))]
         if not families:
             break
@@ -476,7 +479,12 @@ def fits_of(
         if rough.criterion(rough.best(family)) > rough.criterion(rough.best(fits)) - _EVIDENT:
             break
         joints, fits = more, family
+    joints, fits = rough.smoothed(joints, fits)
     best = rough.best(fits)
+    if explaining and rough.criterion(rough.best(plain)) < rough.criterion(best):
+        refined = [_refined(fitter, fit) for fit in rough.accepted(polynomials)]
+        if likely(min(fit.squares for fit in refined), len(places)):
+            return rough.with_jumps(refined)
     at = best.start, best.stop
     if joints:
         joints = rough.fitter.placed(at, joints, best.pieces)
@@ -626,6 +634,28 @@ class _Search:
         more = tuple(joint for joint in placed if at[0] < joint.place < at[1])
         family = self.climbed(more, at, 2.0 * float(np.median(np.diff(self.fitter.x))))
         return (more, family) if family else None
+
+    def smoothed(self, joints: tuple[Joint, ...], fits: list[CurveFit]) -> tuple[tuple[Joint, ...], list[CurveFit]]:
+        """Joints as smooth as fits are about as likely, which models of too few pieces showed as jumps."""
+        for i in range(len(joints)):
+            most = self.criterion(self.best(fits)) + _EVIDENT
+            for continuity in range(joints[i].continuity + 1, 3):
+                tried = (*joints[:i], joints[i]._replace(continuity=continuity), *joints[i + 1 :])
+                tried, family = self._settled(tried, fits)
+                if family and self.criterion(self.best(family)) <= most:
+                    joints, fits = tried, family
+        return joints, fits
+
+    def _settled(self, joints: tuple[Joint, ...], fits: list[CurveFit]) -> tuple[tuple[Joint, ...], list[CurveFit]]:
+        """Joints and fits with these, which move each other's places."""
+        near = 2.0 * float(np.median(np.diff(self.fitter.x)))
+        for _ in range(_SETTLED):
+            best = self.best(fits)
+            joints = self.fitter.placed((best.start, best.stop), joints, best.pieces)
+            fits = self.climbed(joints, (best.start, best.stop), near)
+            if not fits:
+                break
+        return joints, fits
 
     def accepted(self, family: Sequence[CurveFit]) -> list[CurveFit]:
         """The likeliest model, and those with more pieces that are looked at beside it."""

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, pairwise
-from typing import NamedTuple
+from typing import NamedTuple, TypeGuard
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -207,10 +207,8 @@ def _crests(samples: Samples, rests: Sequence[Line], moves: Sequence[FittedMove]
     x, crests = samples.places, []
     for rest in rests:
         middle = 0.5 * (x[rest.first] + x[rest.last])
-        stop = max((move.stop for move in moves if move.start < middle), default=x[0])
-        start = min(
-            (move.start for move in moves if move.start > stop - samples.step and move.stop > middle), default=x[-1]
-        )
+        stop = max((move.stop for move in moves if move.start + move.stop < 2.0 * middle), default=x[0])
+        start = min((move.start for move in moves if move.start + move.stop > 2.0 * middle), default=x[-1])
         at_ends = rest.first == 0 or rest.last == len(x) - 1
         if moves and at_ends:
             start, stop = moves[0].start + x[-1] - x[0], moves[-1].stop
@@ -313,25 +311,26 @@ class _Region:
         """The moves of the region."""
         if self.rows <= _FEWEST_MOVING:
             return self._few_rows() if self.moves_at_all else self._resting()
-        lines = lines_of(self.samples, self.first, self.last) if self.split else []
+        lines, straight = lines_of(self.samples, self.first, self.last) if self.split else [], None
         while True:  # rows that are left out may have looked like turning points, and bent the fits
             places = self._turns()
             chains = self._chains(places)
             if chains and self._left_out(chains[0]):
                 continue
             plain = bool(chains) and likely(chains[0].squares, len(self.x))
-            explained = self._explained_parts(lines) if lines and not plain else None
-            if explained and self._is_simpler(explained, self._fits(simple=True)):
-                return explained
+            straight = None if plain or not lines else straight or self._straight_parts(lines)
+            if self._is_enough(straight):
+                return straight
             fits = self._fits(simple=plain)
+            if self._is_likely(straight) and not _is_simple(fits) and self._is_simpler(straight, fits):
+                return straight
             if plain or not fits or not self._left_out_beside(fits[0]):
                 break
         if fits and len(self.x) < 2 * fits[0].free and fits[0].variance > UNRESOLVED:
             fits = ()
         if chains and (self._explains(chains[0], fits[0]) if fits else plain):
             return _Parts(list(self._of_chain(chains, fits)), chains[0].squares, chains[0].free, self.far)
-        simple = bool(fits) and fits[0].pieces <= SIMPLE and not fits[0].joints and fits[0].variance <= UNRESOLVED
-        if lines and not simple and self._is_simpler(straight := self._parts_between(lines), fits):
+        if straight and not _is_simple(fits) and self._is_simpler(straight, fits):
             return straight
         near = [name for name in chains[0].names if name] if chains else [""] * (len(places) - 1)
         squares, free = (fits[0].squares, fits[0].free) if fits else (0.0, len(self.x))
@@ -381,7 +380,7 @@ class _Region:
                     if key not in explained:
                         explained[key] = self._part(*key).is_explained
                 if all(explained[key] for key in keys):
-                    return self._parts_between(some)
+                    return self._parts_between(some, {})
         return None
 
     @property
@@ -394,10 +393,41 @@ class _Region:
     def _part(self, before: Line | None, after: Line | None) -> _Region:
         return _Region(self.samples, before, after, self.seam, 0.0, split=False)
 
-    def _parts_between(self, lines: Sequence[Line]) -> _Parts:
-        """Moves between given lines."""
-        parts = [self._part(*beside).parts() for beside in pairwise([self.before, *lines, self.after])]
-        return _Parts.joined(parts, 2 * len(lines))
+    def _straight_parts(self, lines: Sequence[Line]) -> _Parts:
+        """Moves between lines, without those of which the rows make others likelier; the shortest ones first."""
+        explained = self._explained_parts(lines)
+        if explained:
+            return explained
+        known = dict[tuple[Line | None, Line | None], _Parts]()
+        parts = self._parts_between(lines, known)
+        beside = dict(zip(lines, pairwise(known.values()), strict=True))
+        shorter = [line for line in lines if _is_between_longer(*beside[line])]
+        for line in sorted(shorter, key=lambda line: line.last - line.first):
+            others = [each for each in lines if each is not line]
+            without = self._parts_between(others, known) if others else parts
+            if without.criterion(len(self.x)) < parts.criterion(len(self.x)):
+                lines, parts = others, without
+        return parts
+
+    def _is_likely(self, parts: _Parts | None) -> TypeGuard[_Parts]:
+        """Whether moves between lines leave nothing but noise."""
+        return parts is not None and likely(parts.squares, len(self.x))
+
+    def _is_enough(self, parts: _Parts | None) -> TypeGuard[_Parts]:
+        """Whether no spline need be looked at beside likely moves: lines meet at a corner, or all have names."""
+        if not self._is_likely(parts):
+            return False
+        if any(move.is_corner for move in parts.moves):
+            return True
+        return all(move.name for move in parts.moves) and self._is_simpler(parts, self._fits(simple=True))
+
+    def _parts_between(self, lines: Sequence[Line], known: dict[tuple[Line | None, Line | None], _Parts]) -> _Parts:
+        """Moves between given lines; those between two that are `known` are as before."""
+        keys = list(pairwise([self.before, *lines, self.after]))
+        for key in keys:
+            if key not in known:
+                known[key] = self._part(*key).parts()
+        return _Parts.joined([known[key] for key in keys], 2 * len(lines))
 
     def _is_simpler(self, parts: _Parts, fits: Sequence[CurveFit]) -> bool:
         rows = len(self.x)
@@ -554,6 +584,19 @@ class _Region:
         least = least_peak(x, y, noise, self.digit, nu) if len(x) > nu + 1 else 0.0
         # models with less than the rows have do not hold
         return PeakInterval(least, max(most, least) if least <= _AT_ODDS * most else np.inf)
+
+
+def _is_between_longer(before: _Parts, after: _Parts) -> bool:
+    """Whether less is between two moves than each is long, so that it may be the middle of one motion."""
+    if not before.moves or not after.moves:
+        return False
+    last, first = before.moves[-1], after.moves[0]
+    return first.start - last.stop < min(last.stop - last.start, first.stop - first.start)
+
+
+def _is_simple(fits: Sequence[CurveFit]) -> bool:
+    """Whether a spline of few pieces is near the rows."""
+    return bool(fits) and fits[0].pieces <= SIMPLE and not fits[0].joints and fits[0].variance <= UNRESOLVED
 
 
 def _turning_points(y: Array, room: float) -> list[int]:
