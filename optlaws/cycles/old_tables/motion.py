@@ -393,11 +393,17 @@ class _Region:
     def _part(self, before: Line | None, after: Line | None) -> _Region:
         return _Region(self.samples, before, after, self.seam, 0.0, split=False)
 
-    def _straight_parts(self, lines: Sequence[Line]) -> _Parts:
-        """Moves between lines, without those of which the rows make others likelier; the shortest ones first."""
+    def _straight_parts(self, lines: Sequence[Line]) -> _Parts | None:
+        """Moves between lines, without those of which the rows make others likelier, the shortest ones first.
+
+        None where a simple spline explains the rows.
+        """
         explained = self._explained_parts(lines)
         if explained:
             return explained
+        smooth = self._fits(simple=True)
+        if _is_simple(smooth) and likely(smooth[0].squares, len(self.x)):
+            return None
         known = dict[tuple[Line | None, Line | None], _Parts]()
         parts = self._parts_between(lines, known)
         beside = dict(zip(lines, pairwise(known.values()), strict=True))
