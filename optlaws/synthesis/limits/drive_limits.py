@@ -442,8 +442,9 @@ def _near(stated: float, known: float) -> bool:
 
 
 def _put_right(limit: DriveLimit, value: float) -> float:
-    """The value of a motion, without what integration is off below the bound."""
-    return limit.value if 0.0 < limit.value - value <= INTEGRATION * abs(value) else value
+    """The value of a motion, without what integration is off below the bound; energies are differences of works."""
+    size = max(abs(value), limit.unit) if limit.minimise == "energy" else abs(value)
+    return limit.value if 0.0 < limit.value - value <= INTEGRATION * size else value
 
 
 def _in_units(value: float, minimise: DriveObjective, unit: float, towards: float) -> float:
