@@ -348,3 +348,30 @@ def test_a_ramp_of_constant_velocity_ends_where_a_law_from_rest_begins(
     assert table.corners == pytest.approx(places[-2:] if mirrored else places[:2], abs=0.05 + 30.0 * noise)
     assert [peak.is_known for peak in table.peaks] == [True, False, False]
     assert all(0.0 < part.distance <= max(table.room, 4.5 * noise) for part in table.moves)
+
+
+@pytest.mark.parametrize("seed", [8, 10])
+def test_rows_in_the_slow_end_of_a_law_are_no_rest(seed: int) -> None:
+    x, law = np.linspace(0.0, 360.0, 1801), catalogue["4-5-6-7 polynomial"].law
+    lift = 25.0 * (law(np.clip((x - 30.0) / 80.0, 0.0, 1.0)) - law(np.clip((x - 160.0) / 80.0, 0.0, 1.0)))
+    table = split_table(x, np.round(lift + np.random.default_rng(seed).normal(0.0, 0.01, len(x)), 3), digit=1e-3)
+    assert [part.law for part in table.stretches] == [None, "4-5-6-7 polynomial"] * 2 + [None]
+    assert [part.stop for part in table.stretches] == pytest.approx([30.0, 110.0, 160.0, 240.0, 360.0], abs=0.1)
+
+
+def test_a_valve_between_two_ramps_has_no_corner_at_its_crest() -> None:
+    """Two polynomials that meet with their acceleration, each going on from a line that meets the rest at a corner."""
+    x = np.linspace(0.0, 360.0, 721)
+    opening = BPoly.from_derivatives([100.0, 170.0], [[0.3, 0.02, 0.0], [9.0, 0.0, -0.006]])
+    closing = BPoly.from_derivatives([170.0, 245.0], [[9.0, 0.0, -0.006], [0.25, -0.015, 0.0]])
+    y = np.interp(x, [85.0, 100.0, 245.0, 245.0 + 0.25 / 0.015], [0.0, 0.3, 0.25, 0.0])
+    inside = (x >= 100.0) & (x <= 245.0)
+    y[inside] = np.where(x < 170.0, opening(x), closing(x))[inside]
+    for noise in (0.0, 0.003):
+        table = split_table(x, np.round(y + np.random.default_rng(5).normal(0.0, noise, len(x)), 4), digit=1e-4)
+        lines = [(part.kind, part.line is not None) for part in table.stretches]
+        assert lines == [
+            ("dwell", True), ("rise", True), ("rise", False), ("return", False), ("return", True), ("dwell", True)
+        ]  # fmt: skip
+        assert table.corners == pytest.approx([85.0, 245.0 + 0.25 / 0.015], abs=0.02 + 100.0 * noise)
+        assert table.stretches[2].stop == pytest.approx(170.0, abs=0.1)

@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeGuard
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from optlaws.cycles.old_tables.fitting import SIMPLE, UNRESOLVED, CurveFit, End, fits_of, interpolation, likely
+from optlaws.cycles.old_tables.fitting import DEGREE, SIMPLE, UNRESOLVED, CurveFit, End, fits_of, interpolation, likely
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
 from optlaws.cycles.old_tables.rests_and_lines import FEWEST, NOISE_ROOM, Line, lines_of, rests_of
 from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on
@@ -283,13 +283,14 @@ class _Region:
         levels = {end.line[1] for end in self.ends if end.line is not None}
         return self.rows > 1 or self._corner is not None or (self.rows == 1 and len(levels) == 2)
 
-    def _resting(self) -> _Parts:
-        """No moves: its rows are those of the rests beside it."""
-        before, after = (end if end.line else other for end, other in (self.ends, self.ends[::-1]))
-        off = (
-            np.where(self.x < 0.5 * sum(self.about), before.value(self.x), after.value(self.x)) - self.y
-        ) / self.noise
-        return _Parts([], float(off @ off), 0, [])
+    def _resting(self) -> float:
+        """The sum of squares of the rows of the rests or lines beside it."""
+        squares = 0.0
+        for end, beside in zip(self.ends, (self.x <= self.about[0], self.x >= self.about[1]), strict=True):
+            if end.line is not None:
+                off = (end.value(self.x[beside]) - self.y[beside]) / self.noise[beside]
+                squares += float(off @ off)
+        return squares
 
     @cached_property
     def _corner(self) -> tuple[float, float, float] | None:
@@ -310,7 +311,7 @@ class _Region:
     def parts(self) -> _Parts:
         """The moves of the region."""
         if self.rows <= _FEWEST_MOVING:
-            return self._few_rows() if self.moves_at_all else self._resting()
+            return self._few_rows() if self.moves_at_all else _Parts([], self._resting(), 0, [])
         lines, straight = lines_of(self.samples, self.first, self.last) if self.split else [], None
         while True:  # rows that are left out may have looked like turning points, and bent the fits
             places = self._turns()
@@ -356,7 +357,7 @@ class _Region:
     def _few_rows(self) -> _Parts:
         """The corner of a region of few rows, or what goes through these."""
         if self._corner is None:
-            return _Parts(list(self._of_fits((), self.about, [""])), 0.0, self.rows, [])
+            return _Parts(list(self._of_fits((), self.about, [""])), self._resting(), self.rows, [])
         place, height, squares = self._corner
         slopes = self.ends[0].slope, self.ends[1].slope
         return _Parts([FittedMove(place, place, height, height, (), "", "", slopes=slopes)], squares, 0, [])
@@ -601,8 +602,10 @@ def _is_between_longer(before: _Parts, after: _Parts) -> bool:
 
 
 def _is_simple(fits: Sequence[CurveFit]) -> bool:
-    """Whether a spline of few pieces is near the rows."""
-    return bool(fits) and fits[0].pieces <= SIMPLE and not fits[0].joints and fits[0].variance <= UNRESOLVED
+    """Whether a spline of few pieces, or a polynomial of few degrees, is near the rows."""
+    if not fits or fits[0].joints or fits[0].variance > UNRESOLVED:
+        return False
+    return max(fits[0].pieces, fits[0].degree - DEGREE) <= SIMPLE
 
 
 def _turning_points(y: Array, room: float) -> list[int]:
