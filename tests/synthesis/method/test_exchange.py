@@ -6,7 +6,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import BoundaryConditions, BSplines, Chebyshev, Pieces, Problem, Window, at_most, between, synthesize
+from optlaws import (
+    BoundaryConditions,
+    BSplines,
+    Chebyshev,
+    Pieces,
+    Problem,
+    Window,
+    at_most,
+    between,
+    residual_vibration,
+    synthesize,
+)
 from tests.internals.synthesis import (
     ActiveSet,
     Answer,
@@ -14,7 +25,9 @@ from tests.internals.synthesis import (
     Program,
     conic_optimum,
     exchange,
+    first_points,
     model_of,
+    optimum_on_points,
     quadratic_steps,
     stepwise_on_points,
 )
@@ -82,6 +95,21 @@ def test_contacts_on_both_sides_of_a_break_stay_two() -> None:
     merged = state.merged(1e-6)
     assert merged.u[1:].tolist() == list(sides)
     assert len(merged.u) == 3
+
+
+def test_cones_whose_rows_are_nearly_dependent_hold_at_their_points() -> None:
+    """A residual over a band has far fewer degrees of freedom than places: its singular values fall by 1e5."""
+    spectrum = [(16.0, 0.2), (18.0, 1.0), (19.0, 0.4), (22.0, 0.9), (24.0, 0.0), (26.0, 0.0), (27.0, 0.3)]
+    limit = residual_vibration(spectrum=spectrum, damping=0.02)
+    program = model_of(Problem(order=3, basis=Chebyshev(9), bounds={limit: at_most(0.1)})).program
+    points = first_points(program)
+    answer = optimum_on_points(program, points)
+    excess = [
+        (grid.s * family.value(answer.x, grid.u)).max() - family.right_side(answer.x)
+        for family, grid in zip(program.families, points, strict=True)
+    ]
+    assert max(excess) <= 1e-9
+    assert program.objective_at(answer.x) == pytest.approx(6.373893320, rel=1e-8)
 
 
 def test_of_thousands_of_rows_few_are_given_to_the_solver_of_a_quadratic_step(monkeypatch: pytest.MonkeyPatch) -> None:
