@@ -375,3 +375,37 @@ def test_a_valve_between_two_ramps_has_no_corner_at_its_crest() -> None:
         ]  # fmt: skip
         assert table.corners == pytest.approx([85.0, 245.0 + 0.25 / 0.015], abs=0.02 + 100.0 * noise)
         assert table.stretches[2].stop == pytest.approx(170.0, abs=0.1)
+
+
+@pytest.mark.parametrize("speed", [0.02, 0.012])
+def test_ramps_that_begin_and_end_smoothly_are_found_with_their_blends(speed: float) -> None:
+    """A valve whose ramps take 6 deg to begin and to end; rows near the ramps are beside a corner that is none."""
+    x, blend, ramp, lift = np.linspace(0.0, 360.0, 721), 6.0, 25.0, 60.0
+
+    def half(u: np.ndarray) -> np.ndarray:
+        s, k = np.clip(u / blend, 0.0, 1.0), np.clip((u - blend - ramp) / lift, 0.0, 1.0)
+        left = [8.0 - speed * lift, -speed * lift, -27.0]
+        c = np.linalg.solve(np.array([[1, 1, 1], [3, 4, 5], [6, 12, 20]]), left)
+        begin = speed * blend * (s**3 - s**4 / 2.0) + speed * np.clip(u - blend, 0.0, ramp)
+        return begin + np.where(k > 0.0, speed * lift * k + c[0] * k**3 + c[1] * k**4 + c[2] * k**5, 0.0)
+
+    exact = half(np.minimum(x, 360.0 - x) - 89.0) * (np.abs(x - 180.0) <= 91.0)
+    table = split_table(x, np.round(exact + np.random.default_rng(13).normal(0.0, 0.002, 721), 4), digit=1e-4)
+    assert table.corners == ()
+    assert np.abs(table.at(x) - exact).max() <= 0.006
+    assert [part.line is not None for part in table.stretches] == [True, False] * 2 + [False, True] * 2
+    ends = [89.0, 95.0, 120.0, 180.0, 240.0, 265.0, 271.0, 360.0]
+    assert [part.stop for part in table.stretches] == pytest.approx(ends, abs=6.0)  # as far as 2 um tell
+    better = table.bettered(0.05)
+    assert np.abs(better.at(x) - exact).max() <= 0.056
+    assert better.cycle(speed="200 rpm").peak(2) < 16.0
+
+
+@pytest.mark.parametrize("row", [65, 79, 93, 100])
+def test_a_row_that_is_missing_is_no_longer_step_of_all_others(row: int) -> None:
+    x = np.arange(361.0)
+    lift = 22.0 * (QUINTIC(np.clip((x - 40.0) / 90.0, 0, 1)) - QUINTIC(np.clip((x - 190.0) / 90.0, 0, 1)))
+    table = split_table(np.delete(x, row), np.delete(np.round(lift, 3), row), digit=1e-3)
+    assert [part.law for part in table.moves] == ["3-4-5 polynomial"] * 2
+    assert [part.stop for part in table.stretches] == pytest.approx([40.0, 130.0, 190.0, 280.0, 360.0], abs=0.01)
+    assert table.peaks[1].holds(22.0 * 10.0 / np.sqrt(3.0) / 90.0**2)

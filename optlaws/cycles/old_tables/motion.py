@@ -308,9 +308,16 @@ class _Region:
             return None
         return float(at), float(before.value(np.array(at))), squares
 
+    @property
+    def _has_few_rows(self) -> bool:
+        """Whether no spline is fitted; lines that meet at no corner go on into each other within rows near them."""
+        slopes = {0.0 if line is None else line.slope for line in (self.before, self.after)}
+        between = self.before is not None and self.after is not None and len(slopes) > 1
+        return self.rows <= _FEWEST_MOVING and (not between or self._corner is not None)
+
     def parts(self) -> _Parts:
         """The moves of the region."""
-        if self.rows <= _FEWEST_MOVING:
+        if self._has_few_rows:
             return self._few_rows() if self.moves_at_all else _Parts([], self._resting(), 0, [])
         lines, straight = lines_of(self.samples, self.first, self.last) if self.split else [], None
         while True:  # rows that are left out may have looked like turning points, and bent the fits
@@ -387,7 +394,7 @@ class _Region:
     @property
     def is_explained(self) -> bool:
         """Whether noise alone is between its rows and rests, a corner or standard laws."""
-        if not self.moves_at_all or self.rows <= _FEWEST_MOVING:
+        if self._has_few_rows:
             return not self.moves_at_all or self._corner is not None
         return any(likely(chain.squares, len(self.x)) for chain in self._chains(self._turns())[:1])
 
@@ -480,7 +487,7 @@ class _Region:
 
     def _chains(self, places: Sequence[float]) -> list[Chain]:
         """The nearest standard laws between the turning points of the region, and those that are about as near."""
-        if len(places) - 1 > 4 or len(self.x) < 2 * len(places) + 2:
+        if len(places) - 1 > 4 or len(self.x) < 2 * len(places) + 2 or not np.all(np.diff(places) > 0.0):
             return []
         heights, known = np.interp(places, self.x, self.y), np.zeros(len(places), dtype=bool)
         for side, end in ((0, self.ends[0]), (-1, self.ends[1])):
