@@ -33,7 +33,7 @@ def usual_cycle(cycle: Cycle) -> Cycle | None:
     if all(getattr(cycle.segments[i], "law", None) == USUAL for i in moves):
         return None
     try:
-        usual_moves = {i: replace(with_law(USUAL, cycle.segments[i]), limits={}) for i in moves}  # type: ignore[type-var]
+        usual_moves = {i: replace(with_law(USUAL, cycle.segments[i]), limits={}) for i in moves}  # type: ignore[type-var] # dataclasses
         segments = [usual_moves.get(i, each) for i, each in enumerate(cycle.segments)]
         usual = with_laws(cycle, segments, limits={})
         usual.unchecked()

@@ -195,9 +195,9 @@ def test_corners_between_lines_are_taken_away(begin: float, order: int) -> None:
     assert np.interp(table.corners, at, apart) == pytest.approx(0.05, rel=1e-2)
     jumps = np.abs(np.diff([0.0, 8.0 / 60.0, 0.25, -16.0 / 60.0, 0.0]))
     most = jumps.max() ** 2 / 0.05 * (1.0 / 8.0 if order == 2 else 9.0 / 64.0)
-    bends = [part for part in smooth.moves if part.corner is not None]
+    blends = [part for part in smooth.moves if part.corner is not None]
     found = max(
-        abs(part.stroke) / (part.stop - part.start) ** 2 * law_of_move(part).constants.C.value for part in bends
+        abs(part.stroke) / (part.stop - part.start) ** 2 * law_of_move(part).constants.C.value for part in blends
     )
     assert found == pytest.approx(most, rel=1e-3)
     cycle = smooth.cycle(speed="100 rpm")

@@ -43,7 +43,7 @@ _ROUNDS = 15
 _LOOKS = 800  # places at which the difference of two laws is looked at for its extremes
 _FREE = 4  # the order up to which derivatives are left free at one end and given at the other
 #: by which share of a jump of velocity it has changed at a share of the width about a corner
-_BENDS = Polynomial([0.0, 1.0]), Polynomial([0.0, 0.0, 3.0, -2.0])
+_BLENDS = Polynomial([0.0, 1.0]), Polynomial([0.0, 0.0, 3.0, -2.0])
 _MOST = 0.25  # of a stroke: tolerances beyond it are none
 _HARDLY_KNOWN = 4.0  # times the least that an old peak may be: where it may be more the table does not tell it
 
@@ -172,15 +172,15 @@ def _better(
         without = _with_least(part, old, share, order, degree, smooth)
         if without.solution is not None:
             return without
-        cornered = _with_least(part, old, share, order, degree, ends)
-        cornered = replace(cornered, reason=f"a corner stays, as {without.reason}")
-        return _with_enough(cornered, old, share, order, degree, smooth)
+        with_corner = _with_least(part, old, share, order, degree, ends)
+        with_corner = replace(with_corner, reason=f"a corner stays, as {without.reason}")
+        return _with_sufficient_tolerance(with_corner, old, share, order, degree, smooth)
     if any(abs(value) >= old.constants.C.value * (1.0 - _LEAST_GAIN) for state in ends for value in state[2:3]):
         return replace(part, reason="its acceleration is greatest where it goes on into the next move")
     better = _with_least(part, old, share, order, degree, ends)
     if better.solution is not None:
         return better
-    return _with_enough(better, old, share, order, degree, ends)
+    return _with_sufficient_tolerance(better, old, share, order, degree, ends)
 
 
 def _with_least(part: Stretch, old: MotionLaw, share: float, order: int, degree: int, ends: Ends) -> Stretch:
@@ -197,8 +197,8 @@ def without_corners(stretches: Sequence[Stretch], room: float, order: int) -> li
     Over a width w about a corner the velocity changes by v evenly, at most v w/8 off, or from order 3 on with
     continuous acceleration: by v (3u² - 2u³), at most 3 v w/32 off.
     """
-    lines, bends = list(stretches), list[Stretch]()
-    shape = _BENDS[order > 2]
+    lines, blends = list(stretches), list[Stretch]()
+    shape = _BLENDS[order > 2]
     for i, after in enumerate(stretches):
         before = stretches[i - 1]
         if before.line is None or after.line is None:
@@ -206,22 +206,22 @@ def without_corners(stretches: Sequence[Stretch], room: float, order: int) -> li
         jump = after.line - before.line
         if abs(jump) <= JUMP * max(abs(before.line), abs(after.line)):
             continue
-        wide = min(_bend_width(shape, jump, room), before.stop - before.start, after.stop - after.start)
+        wide = min(_blend_width(shape, jump, room), before.stop - before.start, after.stop - after.start)
         lines[i - 1] = _shortened(lines[i - 1], 0.0, 0.5 * wide)
         lines[i] = _shortened(lines[i], 0.5 * wide, 0.0)
-        bends += _bend(after.start, after.low, wide, before.line + jump * shape, stretches)
+        blends += _blend(after.start, after.low, wide, before.line + jump * shape, stretches)
     long = [part for part in lines if part.stop - part.start > _SAME * (stretches[-1].stop - stretches[0].start)]
-    return sorted([*long, *bends], key=lambda part: part.start)
+    return sorted([*long, *blends], key=lambda part: part.start)
 
 
-def _bend_width(shape: Polynomial, jump: float, room: float) -> float:
+def _blend_width(shape: Polynomial, jump: float, room: float) -> float:
     """Over which width a velocity changes by a jump, at most a tolerance off the corner, which it is in the middle."""
     return room / (float(shape.integ()(0.5)) * abs(jump))
 
 
-def _bend_jerk(jump: float, room: float) -> float:
+def _blend_jerk(jump: float, room: float) -> float:
     """The greatest jerk where a velocity changes by a jump with continuous acceleration."""
-    return abs(jump) * float(_BENDS[1].deriv(2)(0.0)) / _bend_width(_BENDS[1], jump, room) ** 2 if jump else 0.0
+    return abs(jump) * float(_BLENDS[1].deriv(2)(0.0)) / _blend_width(_BLENDS[1], jump, room) ** 2 if jump else 0.0
 
 
 def _shortened(part: Stretch, first: float, last: float) -> Stretch:
@@ -236,7 +236,7 @@ def _shortened(part: Stretch, first: float, last: float) -> Stretch:
     )
 
 
-def _bend(
+def _blend(
     corner: float, height: float, wide: float, velocity: Polynomial, stretches: Sequence[Stretch]
 ) -> list[Stretch]:
     """The rises and returns of a velocity, by shares of a width about a corner; those before the turn at its end."""
@@ -301,7 +301,9 @@ def _ends(
     return states[0], states[1]
 
 
-def _with_enough(part: Stretch, old: MotionLaw, share: float, order: int, degree: int, ends: Ends) -> Stretch:
+def _with_sufficient_tolerance(
+    part: Stretch, old: MotionLaw, share: float, order: int, degree: int, ends: Ends
+) -> Stretch:
     """A move with a tolerance within which a law is better, and by how much; as it is where none was found."""
     before = _acceleration_before(old, ends)
     while (share := 2.0 * share) <= _MOST:
@@ -314,8 +316,12 @@ def _with_enough(part: Stretch, old: MotionLaw, share: float, order: int, degree
 
 def _acceleration_before(old: MotionLaw, ends: Ends) -> float:
     """The peak of the acceleration of an old law; infinite where it has a corner at an end and a new one has none."""
-    velocities = [abs(was[1] - state[1]) for was, state in zip(old.boundary_values(2), ends, strict=True)]
-    return inf if max(velocities) > _SAME * old.constants.B.value else old.constants.C.value
+    return inf if max(_velocity_changes(old, ends)) > _SAME * old.constants.B.value else old.constants.C.value
+
+
+def _velocity_changes(old: MotionLaw, ends: Ends) -> list[float]:
+    """By how much the velocities at given ends are others than those of an old law."""
+    return [abs(was[1] - state[1]) for was, state in zip(old.boundary_values(2), ends, strict=True)]
 
 
 @lru_cache(maxsize=256)
@@ -338,10 +344,9 @@ def _least(old: MotionLaw, share: float, order: int, degree: int, ends: Ends) ->
     over a part of the move, and corners over the width that the tolerance allows. The acceleration of an old law with a
     corner that the new one has not is infinite.
     """
-    C, J, before = _acceleration_before(old, ends), old.constants.J.value, old.boundary_values(3)
-    corners = [abs(was[1] - state[1]) for was, state in zip(before, ends, strict=True)]
-    jumps = [abs(was[2] - now) for was, state in zip(before, ends, strict=True) for now in state[2:3]]
-    jerk = _JERK * max([J, *(jump / _RAMP for jump in jumps), *(_bend_jerk(jump, share) for jump in corners)])
+    C, J, corners = _acceleration_before(old, ends), old.constants.J.value, _velocity_changes(old, ends)
+    jumps = [abs(was[2] - now) for was, state in zip(old.boundary_values(3), ends, strict=True) for now in state[2:3]]
+    jerk = _JERK * max([J, *(jump / _RAMP for jump in jumps), *(_blend_jerk(jump, share) for jump in corners)])
     same = min(len(state) for state in ends)
     known = [
         via(quantity, value, at=state[0]) for state in ends for quantity, value in zip("cj", state[same:], strict=False)

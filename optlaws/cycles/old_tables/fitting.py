@@ -51,8 +51,9 @@ _SIMPLE = 4
 _LOOKS = np.array([0.0, *2.0 ** np.arange(-8.0, 1.0)])
 #: of a step: how near the ends of rests are looked for, in the end and in searches
 _FINE, _ROUGH = 0.02, 0.2
+#: a polynomial of more degrees is looked at beside joints
+_FEW_DEGREES = 15
 #: degrees of one polynomial for a whole move, and how many derivatives it may have in common with the rests beside it
-_FEW_DEGREES = 15  # a polynomial of more is looked at beside joints
 _DEGREES, _CONTACTS = range(7, 34, 2), (3, 2)
 #: of a step: ends of rests beside one polynomial are no nearer; and how often they are moved at most
 _EXACT, _ENDS_MOVED = 1e-9, 40

@@ -327,7 +327,7 @@ class _Region:
                 continue
             plain = bool(chains) and likely(chains[0].squares, len(self.x))
             straight = None if plain or not lines else straight or self._straight_parts(lines)
-            if self._is_enough(straight):
+            if self._needs_no_spline(straight):
                 return straight
             fits = self._fits(simple=plain)
             if self._is_likely(straight) and not _is_simple(fits) and self._is_simpler(straight, fits):
@@ -427,7 +427,7 @@ class _Region:
         """Whether moves between lines leave nothing but noise."""
         return parts is not None and likely(parts.squares, len(self.x))
 
-    def _is_enough(self, parts: _Parts | None) -> TypeGuard[_Parts]:
+    def _needs_no_spline(self, parts: _Parts | None) -> TypeGuard[_Parts]:
         """Whether no spline need be looked at beside likely moves: lines meet at a corner, or all have names."""
         if not self._is_likely(parts):
             return False

@@ -44,7 +44,7 @@ class OldTableReport:
         for part in () if self.new is None else self.new.moves:
             start, reason = f"{part.start:g}", self.table.reason_in_words(part)
             if part.corner is not None:
-                yield self.table.bend_in_words(part)
+                yield self.table.blend_in_words(part)
             elif part.solution is None and reason:
                 yield sentence("the {} from {} keeps its law: {}", part.kind, start, reason)
             elif reason:

@@ -87,11 +87,9 @@ class Chain:
         """The chain with places as round, and heights, as the rows allow; it ends in the bounds."""
         count = len(self.places)
         for places in (*rounded_places(self.places, x), self.places):
-            heights = self.heights if places is self.places or not digit else self._rounded_heights(digit)
+            heights = self.heights.copy() if places is self.places or not digit else self._rounded_heights(digit)
             inside = np.clip(places, *bounds)
-            heights = heights + np.array([self.slopes[0], *[0.0] * (count - 2), self.slopes[1]]) * (
-                inside - self.places
-            )
+            heights[[0, -1]] += self.slopes * (inside - self.places)[[0, -1]]
             if self.turn:
                 inside[-1], heights[-1] = inside[0] + self.turn, heights[0] + self.advance
             if np.all(np.diff(inside) > 0.0):

@@ -391,7 +391,7 @@ class OldTable:
             "{}; within {} one has {} less acceleration", part.reason, enough, f"{part.sufficient_gain:.1%}"
         )
 
-    def bend_in_words(self, part: Stretch) -> str:
+    def blend_in_words(self, part: Stretch) -> str:
         """From where to where a corner is taken away, with the acceleration there."""
         C = abs(part.stroke) / (part.stop - part.start) ** 2 * law_of_move(part).constants.C.value
         ends = f"{part.start:.5g}", Amount(part.stop, self.master, 5)
