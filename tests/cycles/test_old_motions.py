@@ -409,3 +409,49 @@ def test_a_row_that_is_missing_is_no_longer_step_of_all_others(row: int) -> None
     assert [part.law for part in table.moves] == ["3-4-5 polynomial"] * 2
     assert [part.stop for part in table.stretches] == pytest.approx([40.0, 130.0, 190.0, 280.0, 360.0], abs=0.01)
     assert table.peaks[1].holds(22.0 * 10.0 / np.sqrt(3.0) / 90.0**2)
+
+
+def test_a_motion_without_rest_begins_where_it_turns_and_not_at_its_lowest_row() -> None:
+    """The lowest row is two degrees before the turning point, where the motion has a velocity."""
+    k = 2.0 * np.pi * np.linspace(0.0, 1.0, 721)
+    exact = 20.0 * np.cos(k) + 3.0 * np.cos(2.0 * k)
+    y = np.round(exact, 2)
+    assert int(np.argmin(y)) == 356
+    table = split_table(np.linspace(0.0, 360.0, 721), y, digit=1e-2)
+    assert [part.stop for part in table.stretches] == pytest.approx([180.0, 360.0], abs=0.02)
+    cycle = table.bettered(0.05).cycle(speed="200 rpm")
+    assert cycle.duration == pytest.approx(0.3)
+
+
+def test_a_jump_of_the_jerk_at_a_steep_place_is_no_corner() -> None:
+    """A line that ends smoothly in a crest, behind which a stroke of 116 mm begins: 2 um of noise hide nothing."""
+    x = np.linspace(0.0, 360.0, 721)
+    before = BPoly.from_derivatives([30.0, 90.0], [[0.0, 0.0, 0.0], [24.0, 0.8, 0.0]])
+    crest = BPoly.from_derivatives([180.0, 230.0], [[96.0, 0.8, 0.0], [116.0, 0.0, 0.0]])
+    k = np.clip((x - 230.0) / 100.0, 0.0, 1.0)
+    exact = np.select(
+        [x < 30.0, x < 90.0, x < 180.0, x < 230.0], [0.0 * x, before(x), 24.0 + 0.8 * (x - 90.0), crest(x)],
+        116.0 * (1.0 - k + np.sin(2.0 * np.pi * k) / (2.0 * np.pi)),
+    )  # fmt: skip
+    table = split_table(x, np.round(exact + np.random.default_rng(6).normal(0.0, 0.002, 721), 3), digit=1e-3)
+    assert table.corners == ()
+    ends = [30.0, 90.0, 180.0, 230.0, 330.0, 360.0]
+    assert [part.stop for part in table.stretches] == pytest.approx(ends, abs=1.0)
+    assert table.peaks[1].holds(116.0 * 2.0 * np.pi / 100.0**2)
+
+
+@pytest.mark.parametrize(
+    ("rows", "noise", "corners", "lift"),
+    [
+        (721, 5e-3, (31.0, 66.0, 259.0, 322.0), (2.3, 4.2)),
+        (361, 1e-2, (142.0, 168.0, 212.0, 247.0), (4.9, 3.0)),
+        (1441, 2e-3, (48.0, 83.0, 229.0, 321.0), (4.9, 4.3)),
+    ],
+)
+def test_lines_that_meet_in_one_row_are_all_found(
+    rows: int, noise: float, corners: tuple[float, ...], lift: tuple[float, float]
+) -> None:
+    x = np.linspace(0.0, 360.0, rows)
+    y = np.interp(x, corners, [0.0, *lift, 0.0]) + np.random.default_rng(rows).normal(0.0, noise, rows)
+    table = split_table(x, np.round(y, 4), digit=1e-4)
+    assert table.corners == pytest.approx(corners, abs=0.1)

@@ -11,7 +11,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
-from scipy.interpolate import BSpline, make_interp_spline
+from scipy.interpolate import BPoly, BSpline, make_interp_spline
 
 from optlaws.numbers import Array
 
@@ -37,6 +37,8 @@ _MOST_JOINTS = 8
 _MORE = 6
 #: of a step: about a joint it is looked for within less and less
 _WIDTHS = (2.0, 0.5, 0.12, 0.03, 0.008, 0.002)
+#: places within a piece at which a joint is tried that is to be smoother
+_MOVED = 19
 #: how often joints and ends are placed by each other
 _SETTLED = 2
 #: how many models with more pieces than the best one are looked at beside it
@@ -160,6 +162,23 @@ class CurveFit:
             self, spline=spline, joints=joints, ends=(self.ends[0].moved(along, up), self.ends[1].moved(along, up))
         )
 
+    def begun_at(self, place: float, advance: float) -> CurveFit:
+        """The fit of a turn in which it advances, begun at a place within: what is before it follows."""
+        if not self.start < place < self.stop:
+            return self
+        degree, turn = self.degree, self.stop - self.start
+        columns = BSpline(self.spline.t, np.column_stack([self.spline.c, self.factor]), degree)
+        divided = columns.insert_knot(place, degree - int(np.count_nonzero(self.spline.t == place)))
+        first = int(np.searchsorted(divided.t, place))
+        before, behind = divided.c[:first], divided.c[first - 1 :].copy()
+        before[:, 0] += advance
+        later = np.append(divided.t[first : -degree - 1], np.repeat(self.stop, degree))
+        knots = np.concatenate([[place], later, divided.t[degree + 1 : first + degree] + turn, [place + turn]])
+        joints = [joint._replace(place=joint.place + turn * (joint.place <= place)) for joint in self.joints]
+        c = np.vstack([behind, before[1:]])
+        spline = BSpline(knots, c[:, 0], degree)
+        return replace(self, spline=spline, factor=c[:, 1:], joints=tuple(sorted(set(joints))))
+
     @property
     def variance(self) -> float:
         """The variance of the rows about it, over that of the noise."""
@@ -197,6 +216,20 @@ def _basis(knots: Array, places: Array, degree: int = DEGREE, nu: int = 0) -> Ar
     # all of them evaluated at once: a sparse matrix of as few columns takes longer to make
     rows: Array = BSpline.construct_fast(inner, np.eye(len(inner) - degree - 1), degree)(x)
     return np.asarray(rows @ turned, dtype=np.float64) if nu else rows
+
+
+def _nearly_orthogonal(u: Array, contact: int, degree: int) -> Array:
+    """Polynomials with so many zeros at -1 and at 1 whose products at dense places sum up to about 0.
+
+    These are (1 - u^2)^m times Gegenbauer's, of alpha = 2 m + 1/2.
+    """
+    alpha, columns = 2.0 * contact + 0.5, [(1.0 - u * u) ** contact]
+    columns.append(2.0 * alpha * u * columns[0])
+    for n in range(2, degree + 1):
+        ahead = 2.0 * (n + alpha - 1.0) * u * columns[-1] - (n + 2.0 * alpha - 2.0) * columns[-2]
+        columns.append(ahead / n)
+    rows = np.column_stack(columns)
+    return np.asarray(rows / np.sqrt((rows**2).sum(axis=0)))
 
 
 def _condensed(knots: Array, places: Array, heights: Array, weights: Array, degree: int) -> Array:
@@ -341,17 +374,22 @@ class _Fitter:
         ).x  # fmt: skip
         return float(start), float(stop)
 
+    def polynomial_squares(self, at: tuple[float, float]) -> float:
+        """The sum of squares about the best polynomial between two rests that end there."""
+        off = self._missed(np.array(at))
+        return float(off @ off)
+
     def _missed(self, at: Array) -> Array:
         """How far the best polynomial between two rests that end there misses each row, in deviations of its noise."""
         x, (start, stop), (first, last) = self.x, at, self.ends
         off = np.where(x < start, self.y - first.value(x), self.y - last.value(x)) / self.noise
         inside = (x >= start) & (x <= stop)
-        knots = _knots(start, stop, (), 1, self.degree)
-        turned, known = self._known(knots)
-        rows = _basis(knots, x[inside], self.degree) / self.noise[inside, None]
-        left = self.y[inside] / self.noise[inside] - rows @ known
-        q, _ = np.linalg.qr(rows @ turned)
-        off[inside] = left - q @ (q.T @ left)
+        known = [[float(end.value(np.array(place))), end.slope, 0.0] for end, place in ((first, start), (last, stop))]
+        between = BPoly.from_derivatives([start, stop], [each[: self.contact] for each in known])(x[inside])
+        u, noise = (2.0 * x[inside] - start - stop) / (stop - start), self.noise[inside]
+        rows = _nearly_orthogonal(u, self.contact, self.degree - 2 * self.contact) / noise[:, None]
+        left = (self.y[inside] - between) / noise
+        off[inside] = left - rows @ np.linalg.lstsq(rows.T @ rows, rows.T @ left, rcond=None)[0]
         return np.asarray(off)
 
     def joint(self, start: float, stop: float, joints: Sequence[Joint], pieces: int) -> Joint | None:
@@ -437,7 +475,7 @@ def fits_of(
     ends: tuple[End, End],
     advance: float | None = None,
     *,
-    simple: bool = False,
+    smooth: int | None = None,
 ) -> list[CurveFit]:
     """Splines that explain rows as well as any, the simplest one first; none where the rows are too few.
 
@@ -449,11 +487,11 @@ def fits_of(
         What is before the first and behind the last row of the motion.
     advance
         Of a whole turn, at whose end the motion goes on as at its start: what it advances by.
-    simple
-        Whether only splines of few pieces without joints are of interest.
+    smooth
+        If given, splines without joints alone are of interest, of so many pieces at most.
     """
     fitter = _Fitter(places, heights, noise, ends, advance)
-    rough = _Search(fitter.thinned(), _ENDS_BY if simple else _PIECES[-1])
+    rough = _Search(fitter.thinned(), _PIECES[-1] if smooth is None else smooth)
     middle = [
         (end.low + end.high) / 2.0 if end.line is not None else float(places[0 if side == 0 else -1])
         for side, end in enumerate(ends)
@@ -472,7 +510,7 @@ def fits_of(
     explaining = plain if plain and likely(rough.best(plain).squares, rough.rows) else []
     few = bool(explaining) and rough.best(plain).degree <= _FEW_DEGREES
     joints: tuple[Joint, ...] = ()
-    while not simple and not few and len(joints) < _MOST_JOINTS and rough.best(fits).pieces > _SIMPLE:
+    while smooth is None and not few and len(joints) < _MOST_JOINTS and rough.best(fits).pieces > _SIMPLE:
         families = [each for pieces in _COARSE if (each := rough.joined(fits, joints, pieces))]
         if not families:
             break
@@ -491,7 +529,8 @@ def fits_of(
         joints = rough.fitter.placed(at, joints, best.pieces)
     whole = _Search(fitter, rough.most)
     starts = {fit.pieces: (fit.start, fit.stop) for fit in fits}
-    accepted = whole.accepted(whole.climbed(joints, at, float(np.median(np.diff(places))), starts))
+    near = float(np.median(np.diff(places)))
+    accepted = whole.accepted(whole.climbed(joints, at, near, starts, fewest=best.pieces))
     return whole.with_jumps(accepted)
 
 
@@ -511,10 +550,10 @@ def _refined(rows: _Fitter, fit: CurveFit) -> CurveFit:
     """A polynomial, fitted to all rows; its ends are as round as these allow."""
     fitter = replace(rows, degree=fit.degree, contact=fit.contact)
     at = fitter.polynomial_ends((fit.start, fit.stop))
-    most = fitter.solved(*at, (), 1)[0] + len(at) * AS_LIKELY
+    most = fitter.polynomial_squares(at) + len(at) * AS_LIKELY
     for start, stop in map(tuple, rounded_places(np.array(at), rows.x)):
         inside = all(end.low <= place <= end.high for end, place in zip(rows.ends, (start, stop), strict=True))
-        if inside and start < stop and fitter.solved(start, stop, (), 1)[0] <= most:
+        if inside and start < stop and fitter.polynomial_squares((start, stop)) <= most:
             at = start, stop
             break
     return fitter.solved(*at, (), 1, whole=True)[2] or fit
@@ -562,13 +601,18 @@ class _Search:
         at: tuple[float, float],
         near: float | None,
         starts: Mapping[int, tuple[float, float]] = MappingProxyType({}),
+        *,
+        fewest: int = 1,
     ) -> list[CurveFit]:
         """Fits with more and more pieces, until these serve no more; ends are looked for everywhere, or near.
 
         Near means within a length of where fits with so many pieces start, else of where the last one does.
         """
         fits: list[CurveFit] = []
-        for pieces in _ladder(self.rows, len(joints)):
+        ladder = list(_ladder(self.rows, len(joints)))
+        for i, pieces in enumerate(ladder):
+            if ladder[min(i + 1, len(ladder) - 1)] < fewest:
+                continue
             if pieces > self.most:
                 break
             if pieces <= _ENDS_BY:
@@ -595,7 +639,7 @@ class _Search:
         for contact in _CONTACTS if None not in (end.line for end in self.fitter.ends) else ():
             fits = []
             for degree in _DEGREES:
-                if degree * _ROWS_EACH > self.rows:
+                if degree * _ROWS_EACH > self.rows or degree > self.most + DEGREE:
                     break
                 fitter = replace(self.fitter, degree=degree, contact=contact)
                 at = fitter.polynomial_ends(at)
@@ -641,11 +685,21 @@ class _Search:
         for i in range(len(joints)):
             most = self.criterion(self.best(fits)) + _EVIDENT
             for continuity in range(joints[i].continuity + 1, 3):
-                tried = (*joints[:i], joints[i]._replace(continuity=continuity), *joints[i + 1 :])
-                tried, family = self._settled(tried, fits)
+                tried, family = self._settled(self._moved(joints, i, continuity, self.best(fits)), fits)
                 if family and self.criterion(self.best(family)) <= most:
                     joints, fits = tried, family
         return joints, fits
+
+    def _moved(self, joints: tuple[Joint, ...], i: int, continuity: int, fit: CurveFit) -> tuple[Joint, ...]:
+        """Joints of which one has another continuity, where this is likeliest within the length of a piece."""
+        at, length = joints[i].place, (fit.stop - fit.start) / fit.pieces
+        low, high = max(at - length, fit.start), min(at + length, fit.stop)
+        others = [*joints[:i], *joints[i + 1 :]]
+        tried = [
+            tuple(sorted([*others, Joint(float(place), continuity)]))
+            for place in np.append(np.linspace(low, high, _MOVED)[1:-1], at)
+        ]
+        return min(tried, key=lambda each: self.fitter.solved(fit.start, fit.stop, each, fit.pieces)[0])
 
     def _settled(self, joints: tuple[Joint, ...], fits: list[CurveFit]) -> tuple[tuple[Joint, ...], list[CurveFit]]:
         """Joints and fits with these, which move each other's places."""

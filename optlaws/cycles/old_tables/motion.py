@@ -14,7 +14,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from optlaws.cycles.old_tables.fitting import DEGREE, SIMPLE, UNRESOLVED, CurveFit, End, fits_of, interpolation, likely
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
 from optlaws.cycles.old_tables.rests_and_lines import FEWEST, NOISE_ROOM, Line, lines_of, rests_of
-from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on
+from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on, variance_about_spline
 from optlaws.cycles.old_tables.standard import Chain, Outline, criterion, spline_of
 from optlaws.numbers import Array
 from optlaws.numerics.roots import bisect
@@ -38,6 +38,10 @@ _AT_ODDS = 1.02
 _FAR, _FEW = 6.0, 0.04
 #: of a row far off a spline, by which those beside it may be off
 _ALONE = 0.5
+#: rows from which on a spline shows the noise; and variance over that by differences that may be noise and no motion
+_MANY, _MORE_NOISE = 100, 1.5
+#: rows about a corner that show whether it is one, and by how many deviations of their sum they are to one side
+_BESIDE_CORNER, _TO_ONE_SIDE = (4, 32), 4.0
 #: standard laws whose sums of squares differ by less are told apart by no table
 _ALIKE = 16.0
 #: of a turn: rests that are shorter are looked at as crests too, and the moves of one without rest begin so far off it
@@ -110,7 +114,9 @@ class FittedMotion:
 
 def motion_of(samples: Samples) -> FittedMotion:
     """The motion of samples: rests as they are found, and between these moves with the models that rows allow."""
-    clean = samples.without(samples.suspects)
+    clean, share = samples.without(samples.suspects), 1.0
+    if len(clean.places) > _MANY and 1.0 < (about := variance_about_spline(clean)) <= _MORE_NOISE:
+        clean, share = replace(clean, noise=np.sqrt(about) * clean.noise), about
     rests = rests_of(clean)
     far: list[float] = []
     # rows beside a level with the same rest before and behind them
@@ -127,7 +133,8 @@ def motion_of(samples: Samples) -> FittedMotion:
     advance = _advance(clean)
     turn, crests, tried, known = float(np.ptp(clean.places)), list[float](), list[float](), dict[object, _Parts]()
     doubtful = _doubtful(clean, rests)
-    begun, rests, divided = _divided(clean, doubtful if len(doubtful) == len(rests) else [], advance, known)
+    all_crests = len(doubtful) == len(rests) or (doubtful and _explained_by_crests(clean, doubtful, advance))
+    begun, rests, divided = _divided(clean, doubtful if all_crests else [], advance, known)
     if not divided.moves or not all(move.name or move.is_corner for move in divided.moves):
         begun, rests, divided = _divided(clean, crests, advance, known)
         while untried := [middle for middle in _doubtful(begun, rests) if middle not in tried]:
@@ -141,7 +148,7 @@ def motion_of(samples: Samples) -> FittedMotion:
     apart = np.abs(samples.places[:, None] - np.array(far)), np.abs(samples.places[:, None] + turn - np.array(far))
     suspects = samples.suspects | (np.minimum(*apart) < _SAME * turn).any(axis=1)
     moves.sort(key=lambda move: move.start)
-    variance = divided.squares / max(len(clean.places) - divided.free, 1)
+    variance = share * divided.squares / max(len(clean.places) - divided.free, 1)
     return FittedMotion(replace(samples, suspects=suspects), tuple(moves), variance)
 
 
@@ -175,6 +182,17 @@ def _divided(
         if not more:
             return begun, rests, divided
         crests += more
+
+
+def _explained_by_crests(samples: Samples, crests: list[float], advance: float) -> bool:
+    """Whether standard laws explain the rows where short rests are crests, and do not where these are rests."""
+    seam = float(samples.places[-1])
+    return [
+        all(
+            _Region(begun, *beside, seam, advance, split=True).is_explained for beside in pairwise([None, *rests, None])
+        )
+        for begun, rests in (_begun(samples, each, advance) for each in (crests, []))
+    ] == [True, False]
 
 
 def _doubtful(samples: Samples, rests: Sequence[Line]) -> list[float]:
@@ -275,6 +293,7 @@ class _Region:
             End() if after is None else End(after.values, max(x[last] - 2.0 * step, x[first]), x[high]),
         )
         self.far: list[float] = []  # places of rows that it leaves out
+        self._known_fits: dict[tuple[int, int | None], tuple[CurveFit, ...]] = {}
         self.about = float(x[first]), float(x[last])
 
     @property
@@ -304,9 +323,16 @@ class _Region:
         at = self.x[0] + float(after.value(self.x[0]) - before.value(self.x[0])) / apart
         off = (np.where(self.x < at, before.value(self.x), after.value(self.x)) - self.y) / self.noise
         squares = float(off @ off)
-        if not self.x[0] < at < self.x[-1] or not likely(squares, len(off)):
+        if not self.x[0] < at < self.x[-1] or not likely(squares, len(off)) or self._is_rounded(off, at):
             return None
         return float(at), float(before.value(np.array(at))), squares
+
+    def _is_rounded(self, off: Array, at: float) -> bool:
+        """Whether rows about a corner are off it to one side, as where the velocity changes smoothly."""
+        order = np.argsort(np.abs(self.x - at))
+        sums = np.cumsum(off[order])[_BESIDE_CORNER[0] - 1 : _BESIDE_CORNER[1]]
+        counts = np.arange(len(sums)) + _BESIDE_CORNER[0]
+        return bool(np.any(np.abs(sums) > _TO_ONE_SIDE * np.sqrt(counts)))
 
     @property
     def _has_few_rows(self) -> bool:
@@ -329,9 +355,9 @@ class _Region:
             straight = None if plain or not lines else straight or self._straight_parts(lines)
             if self._needs_no_spline(straight):
                 return straight
-            fits = self._fits(simple=plain)
-            if self._is_likely(straight) and not _is_simple(fits) and self._is_simpler(straight, fits):
+            if self._is_likely(straight) and not self._is_smoother(straight):
                 return straight
+            fits = self._fits(SIMPLE if plain else None)
             if plain or not fits or not self._left_out_beside(fits[0]):
                 break
         if fits and len(self.x) < 2 * fits[0].free and fits[0].variance > UNRESOLVED:
@@ -344,13 +370,23 @@ class _Region:
         squares, free = (fits[0].squares, fits[0].free) if fits else (0.0, len(self.x))
         return _Parts(list(self._of_fits(fits, places, near)), squares, free, self.far)
 
-    def _fits(self, *, simple: bool) -> tuple[CurveFit, ...]:
-        fits = tuple(fits_of(self.x, self.y, self.noise, self.ends, self.advance, simple=simple))
-        at_seam = self._ends_at_seam(fits)
-        if at_seam is None:
-            return fits
-        self.ends = at_seam
-        return tuple(fits_of(self.x, self.y, self.noise, self.ends, self.advance, simple=simple))
+    def _fits(self, smooth: int | None = None) -> tuple[CurveFit, ...]:
+        """Splines that explain its rows, maybe without joints and of so many pieces at most."""
+        key = len(self.x), smooth
+        if key not in self._known_fits:
+            fits = tuple(fits_of(self.x, self.y, self.noise, self.ends, self.advance, smooth=smooth))
+            at_seam = self._ends_at_seam(fits)
+            if at_seam is not None:
+                self.ends = at_seam
+                fits = tuple(fits_of(self.x, self.y, self.noise, self.ends, self.advance, smooth=smooth))
+            self._known_fits[key] = fits
+        return self._known_fits[key]
+
+    def _is_smoother(self, parts: _Parts) -> bool:
+        """Whether a spline without joints is simple, or explains the rows by less than moves between lines do."""
+        if _is_simple(self._fits(SIMPLE)):
+            return True
+        return parts.free > SIMPLE and not self._is_simpler(parts, self._fits(parts.free))
 
     def _turns(self) -> list[float]:
         """Where the region begins, turns and ends; a single row makes no turn."""
@@ -409,7 +445,7 @@ class _Region:
         explained = self._explained_parts(lines)
         if explained:
             return explained
-        smooth = self._fits(simple=True)
+        smooth = self._fits(SIMPLE)
         if _is_simple(smooth) and likely(smooth[0].squares, len(self.x)):
             return None
         known = dict[tuple[Line | None, Line | None], _Parts]()
@@ -431,9 +467,8 @@ class _Region:
         """Whether no spline need be looked at beside likely moves: lines meet at a corner, or all have names."""
         if not self._is_likely(parts):
             return False
-        if any(move.is_corner for move in parts.moves):
-            return True
-        return all(move.name for move in parts.moves) and self._is_simpler(parts, self._fits(simple=True))
+        named = all(move.name or move.is_corner for move in parts.moves)
+        return named and self._is_simpler(parts, self._fits(SIMPLE))
 
     def _parts_between(self, lines: Sequence[Line], known: dict[tuple[Line | None, Line | None], _Parts]) -> _Parts:
         """Moves between given lines; those between two that are `known` are as before."""
@@ -517,7 +552,7 @@ class _Region:
         chain = chains[0]
         rows, variance = len(self.x), chain.squares / max(len(self.x) - chain.free, 1)
         good = variance * (1.0 + 3.0 * np.sqrt(2.0 / rows))
-        simple = [fit for fit in fits if fit.pieces <= SIMPLE and not fit.joints and fit.variance <= good][:1]
+        simple = [fit for fit in fits if _is_simple([fit]) and fit.variance <= good][:1]
         jumps = [chain.jumps(nu) for nu in (1, 2)]
         for i, name in enumerate(chain.names):
             if not name:
@@ -546,6 +581,7 @@ class _Region:
             inside = (self.x >= self.about[0]) & (self.x <= self.about[1])
             fits = [interpolation(self.x[inside], self.y[inside], self.ends, self.advance)]
             most = [np.inf] * 3
+        fits = self._begun_at_turn(fits, places)
         best = fits[0]
         nodes, laws = [best.start, *(_turn(best, place) for place in places[1:-1]), best.stop], list(near)
         for i, (low, high) in enumerate(pairwise(nodes)):
@@ -555,6 +591,16 @@ class _Region:
                 laws[i : i + 1] = ["", ""]
                 break
         yield from self._parts(fits, nodes, laws, best.variance, most)
+
+    def _begun_at_turn(self, fits: Sequence[CurveFit], places: Sequence[float]) -> Sequence[CurveFit]:
+        """Fits of a whole turn that does not advance, begun where the motion turns, and not at its lowest row."""
+        if self.advance != 0.0 or len(places) < 3:
+            return fits
+        turn = places[-1] - places[0]
+        at = _turn(fits[0].begun_at(places[1], 0.0), places[-1])
+        near = min((self.seam - turn, self.seam), key=lambda seam: abs(seam - at))
+        at = near if abs(near - at) < SHORTEST * turn else at
+        return [fit.begun_at(at if at < fit.stop else at - turn, 0.0) for fit in fits]
 
     def _seam_within(self, low: float, high: float) -> float | None:
         """Where the table begins again within a move; None where it does not."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -155,11 +155,21 @@ def lines_of(samples: Samples, first: int, last: int) -> list[Line]:
         while high - low + 1 >= max(_WINDOW, count * _SHARE):
             if _is_straight(x[low : high + 1], y[low : high + 1], float(size.max())):
                 line, low, high = _line(x, y, NOISE_ROOM * noise + 0.5 * samples.digit, low, high)
-                if not lines or first + low > lines[-1].last:
-                    lines.append(Line(first + low, first + high, *line))
+                after = Line(first + low, first + high, *line)
+                # the row of a corner is on both of its lines, and noise puts further ones there
+                if not lines or lines[-1].last < after.first:
+                    lines.append(after)
+                elif _are_at_a_corner(samples.places, lines[-1], after, NOISE_ROOM * float(size.max())):
+                    lines.append(replace(after, first=lines[-1].last))
                 break
             low, high = low + trim, high - trim
     return lines
+
+
+def _are_at_a_corner(x: Array, before: Line, after: Line, room: float) -> bool:
+    """Whether two lines with rows in common have different slopes, and each enough rows of its own."""
+    lengths = x[before.last] - x[before.first], x[after.last] - x[before.last]
+    return after.last - before.last >= _WINDOW and abs(after.slope - before.slope) * min(lengths) > room
 
 
 def _is_straight(x: Array, y: Array, noise: float) -> bool:

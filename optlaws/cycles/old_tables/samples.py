@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
+from scipy.interpolate import make_lsq_spline
 
 from optlaws.numbers import Array
 
@@ -36,6 +37,10 @@ _BOTH = 0.35
 _BEYOND_ROUNDING = 1.3
 #: differences whose size is by so much less than that of the order below are no noise
 _STILL_FALLING = 0.5
+#: degree and rows of each piece of a spline that goes through any motion
+_DEGREE, _ROWS_OF_PIECE = 5, 4
+#: of the greatest noise: rows with less rest exactly; and deviations from which on a row is no noise of the others
+_NOISY, _FAR_OFF = 0.5, 4.0
 #: of half a window: places in it that are even have no more from where they are
 _EVEN = 1e-11
 #: decimals that a rounded number has at most
@@ -231,6 +236,29 @@ def noise_of(places: Array, heights: Array, rests: Mask | None = None, *, comput
     if computed and len(sizes) > 1 and sizes[-1] < _STILL_FALLING * sizes[-2]:
         return 0.0
     return min(sizes, default=0.0)
+
+
+def variance_about_spline(samples: Samples) -> float:
+    """The variance about a spline of so many pieces that it goes through any motion, over that of the noise.
+
+    It is nearer the truth than what differences show, of which the least order is taken, unless steps are coarse.
+
+    Examples
+    --------
+    >>> x = np.linspace(0.0, 360.0, 721)
+    >>> y = np.sin(np.radians(x)) + np.random.default_rng(1).normal(0.0, 2e-3, 721)
+    >>> samples = samples_of(x, y)
+    >>> share = variance_about_spline(samples)
+    >>> round(float(samples.noise[0]), 5), round(float(samples.noise[0]) * share**0.5, 5)
+    (0.0019, 0.002)
+    """
+    x, y, noise = samples.places, samples.heights, samples.noise
+    pieces = len(x) // _ROWS_OF_PIECE
+    inner = x[np.linspace(0, len(x) - 1, pieces + 1).round().astype(np.intp)][1:-1]
+    knots = np.concatenate([np.repeat(x[0], _DEGREE + 1), inner, np.repeat(x[-1], _DEGREE + 1)])
+    off = (y - make_lsq_spline(x, y, knots, _DEGREE, w=1.0 / noise)(x)) / noise
+    size = np.abs(off[noise > _NOISY * float(noise.max())]) / np.sqrt(1.0 - (pieces + _DEGREE) / len(x))
+    return float((size[size <= _FAR_OFF * float(np.median(size)) / MEDIAN] ** 2).mean())
 
 
 def difference_weights(places: Array, order: int) -> Array:

@@ -617,9 +617,11 @@ def split_table(
     """
     places, heights = np.array(numbers(x, "x")), np.array(numbers(y, "y"))
     if places.shape != heights.shape or places.ndim != 1 or len(places) < FEWEST_POINTS:
+        positions = "" if heights.size == places.size else f" and {heights.size} positions"
         raise InputError(
-            f"a cycle's table has at least {FEWEST_POINTS} points, as many places as positions, got {places.size} "
-            f"and {heights.size}: a file of fewer has to state what runs between them, by functions or derivatives"
+            f"a cycle's table has at least {FEWEST_POINTS} points, as many places as positions, got {places.size}"
+            f"{positions and ' places'}{positions}: a file of fewer has to state what runs between them, by functions "
+            "or derivatives"
         )
     if not np.all(np.isfinite(places)) or not np.all(np.isfinite(heights)):
         raise InputError("the places and positions of a table must be finite numbers")
