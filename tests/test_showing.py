@@ -371,7 +371,7 @@ def test_numbers_of_a_summary_are_those_of_the_law() -> None:
         row = peaks[f"peak {name}"]
         assert row.value == SUMMED.peak(nu)
         assert abs(float(SUMMED(row.place, nu))) == pytest.approx(row.value, rel=1e-9)
-    assert peaks["peak of force"].value == SUMMED.effort.peak_force
+    assert peaks["peak force"].value == SUMMED.effort.peak_force
 
 
 def test_extremes_of_a_cam_are_enclosed_at_their_places() -> None:

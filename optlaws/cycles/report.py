@@ -442,12 +442,14 @@ def drive_rows(plan: Solved) -> list[Row]:
         rows = [*overload_rows(plan), *plan.sheet.summary()]
     elif plan.drive is not None:
         effort, force, name = plan.effort, FORCE_UNITS[plan.axis], FORCES[plan.axis]
+        driven = "the input of the mechanism" if isinstance(plan.drive, Mechanism) else "the axis"
+        by_cam = f"of a cam there that moves {driven}: peak power over the master's speed"
         rows = [
-            Row(f"peak of {name}", effort.peak_force, force),
-            Row(f"RMS {name}", effort.rms_force, force),
-            Row("peak of power", effort.peak_power, "W"),
-            Row("mean of power", effort.mean_power, "W"),
-            Row("peak torque at the master's shaft", effort.shaft_torque(2.0 * pi / plan.duration), "N m"),
+            Row(f"peak {name}", effort.peak_force, force, note=f"at {driven}"),
+            Row(f"RMS {name}", effort.rms_force, force, note=f"at {driven}"),
+            Row("peak power", effort.peak_power, "W"),
+            Row("mean power", effort.mean_power, "W"),
+            Row("peak torque at the master's shaft", effort.shaft_torque(2.0 * pi / plan.duration), "N m", note=by_cam),
         ]
         if isinstance(plan.drive, Mechanism):
             rows += [
@@ -458,7 +460,7 @@ def drive_rows(plan: Solved) -> list[Row]:
             ]
     rows += load_work_rows(plan)
     loaded = load_peaks(plan).items()
-    return rows + [Row(f"peak of the load's {name}", peak, load_unit(plan, name)) for name, peak in loaded]
+    return rows + [Row(f"peak {name} of the load", peak, load_unit(plan, name)) for name, peak in loaded]
 
 
 def overload_rows(plan: Solved) -> list[Row]:

@@ -92,6 +92,21 @@ def test_a_smooth_table_of_forces_has_none_where_the_table_has_none(served: Serv
     assert values[here] == pytest.approx(plain.force(at[here]), abs=2e-3)
 
 
+def test_torques_at_two_shafts_say_of_which_they_are(page: Page, served: Server) -> None:
+    asked = study("cycle_crank_press")
+    asked["axis"] = [asked["axis"][1]]
+    rows = {row["name"]: row for row in served.ask("machine", {"study": asked, "axis": 0})["rows"]}
+    at_input, at_master = rows["peak torque"], rows["peak torque at the master's shaft"]
+    driven = "the input of the mechanism"
+    assert at_input["note"] == rows["RMS torque"]["note"] == f"at {driven}"
+    assert at_master["note"] == f"of a cam there that moves {driven}: peak power over the master's speed"
+    assert at_master["values"] == pytest.approx([rows["peak power"]["values"][0] * 0.7 / (2.0 * pi)])
+    assert at_master["values"] != pytest.approx(at_input["values"], rel=0.1)
+    go(page, served.link(machine=asked, view="machine", axis=0))
+    row = page.locator("tr", has_text="peak torque at the master's shaft")
+    assert row.get_attribute("title") == at_master["note"]
+
+
 def test_greatest_values_are_said_as_the_library_has_them(page: Page, served: Server) -> None:
     greatest = served.ask("machine", {"study": study("cycle_geared_table"), "axis": 1})["over_speed"]["greatest"]
     go(page, served.link(machine=study("cycle_geared_table"), view="machine", axis=1))

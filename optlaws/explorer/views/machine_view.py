@@ -38,6 +38,7 @@ _FAR = 1.6
 _FRAMES = 181
 _COARSE = 3  # of the positions of a mechanism, so many go by from one of a path to the next
 _DECIMALS = 3
+_WEAK = "too weak"  # the note of a margin that a motor does not keep
 #: what a mechanism in proportion is drawn from: the entry of its size
 _ROUND = {"rack": "radius", "belt": "radius", "screw": "lead"}
 
@@ -144,7 +145,8 @@ def _rows(laws: Sequence[Plan | OptlawsError]) -> list[dict[str, Any]]:
             "name": name,
             "unit": next(row.unit for row in rows if row is not None),
             "values": [None if row is None or isinstance(row.value, str) else bounded(row.value) for row in rows],
-            "over": [row is not None and row.note == "too weak" for row in rows],
+            "note": next((row.note for row in rows if row is not None and row.note != _WEAK), ""),
+            "over": [row is not None and row.note == _WEAK for row in rows],
         }
         for name, rows in known.items()
     ]

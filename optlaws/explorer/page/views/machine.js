@@ -341,5 +341,5 @@ function driveTable({ rows, active }, names) {
     const over = rows[i].over[j - 1];
     return { class: [over && "over", j - 1 === active && "active"].filter(Boolean).join(" "), title: over ? "the motor is too weak" : null };
   };
-  return table("What each law asks of the drive", ["at the drive", ...names.slice(0, MOST).map((name, i) => swatch(i, name))], cells, { right: true, look });
+  return table("What each law asks of the drive", ["at the drive", ...names.slice(0, MOST).map((name, i) => swatch(i, name))], cells, { right: true, look, line: (i) => ({ title: rows[i].note || null }) });
 }
