@@ -1,7 +1,7 @@
 """The price of speed
 ==================
 
-Least rms acceleration and least jerk over the time of a move. No law lies below the shaded bands, at any time.
+Least RMS acceleration and least jerk over the time of a move. No law lies below the shaded bands, at any time.
 """
 
 import matplotlib.pyplot as plt

@@ -158,7 +158,7 @@ def draw_advice(advice: Advice, axes: Axes | None = None, **style: Any) -> list[
         for name in (name for name in names if name != chosen and "," not in name):
             name_point(axes, name, (x[name], y[name]), (6.0, -3.0), color=colour, fontsize=7.5)
     if usual is not None and any(more.values()):
-        of = [each for each in advice.guarded if any(each in exceeded for exceeded in more.values())]
+        of = [quantity_name(each) for each in advice.guarded if any(each in exceeded for exceeded in more.values())]
         label = f"open markers: more {listed(of, 'or')} than {usual.name}"
         artists += axes.plot([], [], color=GREY, marker="s", label=label, **opened)
     ring: Any = {"color": WARM, "marker": "o", "markersize": 11.0, "fillstyle": "none", "linewidth": 0.0, "zorder": 5}

@@ -554,7 +554,7 @@ def test_a_motor_that_is_too_weak_is_infeasible(tmp_path: Path, capsys: pytest.C
     file = tmp_path / "weak.toml"
     file.write_text(text.replace("[axis.drive]", 'limits = { "rms torque" = "1 N m" }\n[axis.drive]'), "utf-8")
     assert exit_code(["cycle", str(file), "--json"]) == 3
-    assert re.search("infeasible: .*the rms torque over the cycle is to be at most 1.*no law", capsys.readouterr().err)
+    assert re.search("infeasible: .*the RMS torque over the cycle is to be at most 1.*no law", capsys.readouterr().err)
 
 
 def test_a_stroke_of_a_mechanism_has_laws_of_least_torque() -> None:

@@ -25,7 +25,7 @@ from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import TURN, Exact, either, quantity, table
 from optlaws.numbers import NumberOrQuantity, bounded, chop, whole
-from optlaws.sentences import listed
+from optlaws.sentences import listed, quantity_name
 from optlaws.shown.report import Panel, PlainReport, Report, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
 from optlaws.spelling import either_spelling
@@ -86,7 +86,7 @@ class Advice:
 
     def __getitem__(self, name: str) -> AdvisedLaw:
         for law in self.laws:
-            if law.name == name:
+            if law.name in {name, name.replace("least rms ", "least RMS ")}:
                 return law
         raise InputError(unknown_key(name, [law.name for law in self.laws], "law of this advice"))
 
@@ -140,9 +140,9 @@ class Advice:
             change = chosen.changes.get(measure.name)
             against = "" if chosen.usual is None or chosen.usual is chosen.law else f" of {chosen.usual.name}"
             note = f"{100.0 * change:.4g} %{against}" if change is not None and against else ""
-            rows.append(Row(measure.name, chosen.law.values[measure.name], measure.unit, note=note))
+            rows.append(Row(quantity_name(measure.name), chosen.law.values[measure.name], measure.unit, note=note))
         rows += [
-            Row(f"limit of {taken.name}", f"{100.0 * taken.share:.4g} %", note=f"of {taken.text}")
+            Row(f"limit of {quantity_name(taken.name)}", f"{100.0 * taken.share:.4g} %", note=f"of {taken.text}")
             for taken in chosen.law.limits
         ]
         rows += [Row("why", sentence) for sentence in chosen.sentences]
@@ -255,11 +255,11 @@ def front_panels(
     at, values, least = np.array(rows).T
     # a law is one at every greater value too, and a bound one at every smaller one
     ends = np.repeat(at, 2)[1:-1]
-    others = [name for name in guarded if name != x.name]
+    others = [quantity_name(name) for name in guarded if name != x.name]
     no_more = f" with no more {listed(others, 'or')} than {usual.name}" if usual is not None and others else ""
     below = Series(ends, np.repeat(least[1:], 2), "limit", f"lower bound of laws{no_more}")
     curves = Series(at, values, 0, "front"), Series(ends, np.repeat(values[:-1], 2), 0, "reached"), below
-    return [Panel(y.name, y.unit, curves, across=x.heading, per=1.0)]
+    return [Panel(quantity_name(y.name), y.unit, curves, across=x.heading, per=1.0)]
 
 
 def more_than_usual(law: AdvisedLaw, usual: AdvisedLaw | None, guarded: Iterable[str], *but: str) -> list[str]:
@@ -287,7 +287,7 @@ def limits_in_words(law: AdvisedLaw) -> str:
     """
     if not law.limits:
         return ""
-    broken = (f"{taken.name} {100.0 * (taken.share - 1.0):.2g} % beyond" for taken in law.broken)
+    broken = (f"{quantity_name(taken.name)} {100.0 * (taken.share - 1.0):.2g} % beyond" for taken in law.broken)
     return ", ".join(broken) or "satisfied"
 
 

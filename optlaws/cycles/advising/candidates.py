@@ -32,6 +32,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import Piece, factor, moves_at, unit_of
 from optlaws.motion.quantities import Exact, Kind, in_small_units, quantity
+from optlaws.sentences import quantity_name
 from optlaws.shown.report import Report
 from optlaws.synthesis.least_time.move_limits import RESIDUALS, FollowerResidual
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
@@ -62,8 +63,8 @@ class LawMeasure(NamedTuple):
 
     Examples
     --------
-    >>> LawMeasure("acceleration", "m/s²").heading, LawMeasure("inertia ratio", "").heading
-    ('acceleration, m/s²', 'inertia ratio')
+    >>> LawMeasure("rms acceleration", "m/s²").heading, LawMeasure("inertia ratio", "").heading
+    ('RMS acceleration, m/s²', 'inertia ratio')
     """
 
     name: str
@@ -72,7 +73,7 @@ class LawMeasure(NamedTuple):
     @property
     def heading(self) -> str:
         """The heading of a column of it."""
-        return f"{self.name}, {self.unit}" if self.unit else self.name
+        return f"{quantity_name(self.name)}, {self.unit}" if self.unit else quantity_name(self.name)
 
 
 class ProvenLeast(NamedTuple):
@@ -184,6 +185,17 @@ class AdvisedLaw:
         return self.motion.report()
 
 
+def least(measure: str) -> str:
+    """The name of a law that is least in a measure.
+
+    Examples
+    --------
+    >>> least("rms torque"), least("jerk")
+    ('least RMS torque', 'least jerk')
+    """
+    return f"least {quantity_name(measure)}"
+
+
 @dataclass
 class Candidates:
     """A cycle whose moves have one law after another, in the order of their computation."""
@@ -284,30 +296,30 @@ class Candidates:
             If no law satisfies every limit, or the search fails.
         """
         minimise, second = self.minimise, self.second
-        name = f"least {minimise}"
+        name = least(minimise)
         best = self.laws[name] = self._least(name, minimise, {})
         beside = "" if self.usual is None else f", no worse than {self.usual.name}"
         most = self.most()
         if most and self.usual is not None:
-            name = f"least {minimise}{beside}"
+            name = f"{least(minimise)}{beside}"
             calm = self._add(name, partial(self._within, name, minimise, most))
             best = calm or best
             # a law that breaks limits guards nothing where that would cost more than it takes itself
             bettered = calm is not None and self._objective(calm) <= self._objective(self.usual)
             self.guarding = bettered or self.usual.keeps_limits
-        self.proven = best if self.guarding else self.laws[f"least {minimise}"]
-        name = f"nearly least {minimise}, least {second}"
+        self.proven = best if self.guarding else self.laws[least(minimise)]
+        name = f"nearly {least(minimise)}, {least(second)}"
         self._add(name, partial(self._near, name, self.proven, second))
         others = [name for name, _ in self.measures if name not in {minimise, *_NOT_LEAST}]
         for other in others:
             if other in OBJECTIVES:
-                name = f"least {other}"
+                name = least(other)
                 law = self._add(name, partial(self._least, name, other, {}))
                 if law is not None and any(_is_equal(law, each) for each in self.laws.values() if each is not law):
                     del self.laws[name]
         if (left := self._left) in others:
             most = self.most(left)
-            name = f"least {left}{beside if most else f' at twice the least {minimise}'}"
+            name = f"{least(left)}{beside if most else f' at twice the {least(minimise)}'}"
             if minimise in _OF_MOTION:
                 fits = self.usual is not None and self.usual.keeps_limits and bool(most)
                 most[minimise] = self.usual.values[minimise] if self.usual and fits else self._twice
@@ -322,7 +334,7 @@ class Candidates:
         most = self.most(second)
         try:
             beside = {**most, minimise: self._twice} if minimise in _OF_MOTION else most
-            ends = [self._within(f"least {name}", name, less) for name, less in ((minimise, most), (second, beside))]
+            ends = [self._within(least(name), name, less) for name, less in ((minimise, most), (second, beside))]
         except OptlawsError as error:
             self.errors["front"] = error
             return ()
@@ -331,7 +343,7 @@ class Candidates:
         self.exchanged = [ends[0]]
         for i in range(1, points if low < high else 0):
             value = high * (low / high) ** (i / (points - 1))
-            name = f"least {minimise} at a {second} of {value:.4g}"
+            name = f"{least(minimise)} at a {second} of {value:.4g}"
             try:
                 self.exchanged.append(self._within(name, minimise, {**most, second: value}))
             except OptlawsError as error:
@@ -341,7 +353,7 @@ class Candidates:
     @property
     def _twice(self) -> float:
         """Twice the least objective, as the greatest acceptable price."""
-        return 2.0 * self._objective(self.proven or self.laws[f"least {self.minimise}"])
+        return 2.0 * self._objective(self.proven or self.laws[least(self.minimise)])
 
     def _objective(self, law: AdvisedLaw) -> float:
         return law.values[self.minimise]
@@ -360,8 +372,8 @@ class Candidates:
         advised = self._advised(name, "standard", self._known(self._segments(partial(with_law, name))))
         if self.minimise != self._left and not self._objective(advised) > 0.0:
             raise InputError(
-                f"the {self.minimise} of {name} is 0 between its ends, where its velocity jumps, so that no law can be "
-                "compared with it: take a law from rest to rest"
+                f"the {quantity_name(self.minimise)} of {name} is 0 between its ends, where its velocity jumps, so "
+                "that no law can be compared with it: take a law from rest to rest"
             )
         return advised
 

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import isfinite
 
-from optlaws.cycles.advising.candidates import AdvisedLaw, Candidates, exceeded
+from optlaws.cycles.advising.candidates import AdvisedLaw, Candidates, exceeded, least
 from optlaws.errors import InfeasibleProblem
-from optlaws.sentences import Amount, Sentence, joined, listed, sentence
+from optlaws.sentences import Amount, Sentence, joined, listed, quantity_name, sentence
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import AGREEMENT, EQUALLY_GOOD
 
@@ -66,9 +66,9 @@ def recommended(candidates: Candidates, front: Sequence[AdvisedLaw] = ()) -> Rec
     no_worse = {**most, minimise: usual.values[minimise]} if usual is not None and usual.keeps_limits else most
     fit = [law for law in candidates.laws.values() if law.keeps_limits and not exceeded(law, no_worse)]
     if not fit:  # rounding alone
-        fit = [candidates.laws[f"least {minimise}"]]
-    least = min(law.values[minimise] for law in fit)
-    good = [law for law in fit if law.values[minimise] <= least * (1.0 + EQUALLY_GOOD + AGREEMENT)]
+        fit = [candidates.laws[least(minimise)]]
+    lowest = min(law.values[minimise] for law in fit)
+    good = [law for law in fit if law.values[minimise] <= lowest * (1.0 + EQUALLY_GOOD + AGREEMENT)]
     law = min(good, key=lambda each: each.values[second])
     words = _Words(candidates, law, tuple(most), front)
     changes = {} if usual is None else {
@@ -93,7 +93,8 @@ class _Words:
     def no_more(self) -> str:
         """What the usual law guards, as in "no more jerk than modified sine"; nothing where it guards nothing."""
         usual = self.candidates.usual
-        return f"no more {listed(self.most, 'or')} than {usual.name}" if usual is not None and self.most else ""
+        most = listed([quantity_name(name) for name in self.most], "or") if self.most else ""
+        return f"no more {most} than {usual.name}" if usual is not None and most else ""
 
     @property
     def rule(self) -> str:
@@ -101,21 +102,21 @@ class _Words:
         parts = ("satisfy all limits" if limited else "", f"have {self.no_more}" if self.no_more else "")
         which = " and ".join(part for part in parts if part)
         of_which = f"of the laws that {which}, " if which else ""
-        good = f"those within 1 % of the least {self.candidates.minimise} are equally good"
-        return f"{of_which}{good}; of these the one of least {self.candidates.second}"
+        good = f"those within 1 % of the {least(self.candidates.minimise)} are equally good"
+        return f"{of_which}{good}; of these the one of {least(self.candidates.second)}"
 
     @property
     def gain(self) -> Sentence:
         minimise, usual, law = self.candidates.minimise, self.candidates.usual, self.law
         full = [
-            sentence("{} {}", taken.name, taken.text)
+            sentence("{} {}", quantity_name(taken.name), taken.text)
             for taken in law.limits
             if taken.text and taken.share >= 1.0 - _TELLING
         ]
         to_full = sentence(" ({} reached)", listed(full)) if full else ""
         limits = sentence("{}{}", ", and it satisfies all limits" if law.limits else "", to_full)
         name = f'"{law.name}"' if law.kind == "optimal" else law.name
-        start = sentence("Take {}: its {} is {}", name, minimise, self._with_unit(minimise, law))
+        start = sentence("Take {}: its {} is {}", name, quantity_name(minimise), self._with_unit(minimise, law))
         if usual is None:
             return sentence("{}{}.", start, limits)
         if not usual.keeps_limits:
@@ -132,7 +133,7 @@ class _Words:
     def _beyond(self) -> str:
         """The gain and the cost of the least law, where nothing else is guarded."""
         minimise, second = self.candidates.minimise, self.candidates.second
-        best, values = self.candidates.laws[f"least {minimise}"].values, self.law.values
+        best, values = self.candidates.laws[least(minimise)].values, self.law.values
         gain, times = 1.0 - best[minimise] / values[minimise], best[second] / values[second]
         return f"; {_percent(gain)} less takes {times:.3g} times the {second}" if gain > EQUALLY_GOOD else ""
 
@@ -143,18 +144,18 @@ class _Words:
         proof = None if candidates.proven is None else candidates.proven.proof
         bound = None if proof is None else proof.lower_bound
         if proof is None or not bound or bound <= 0.0:
-            return f"No lower bound of the {minimise} is known"
-        bettered = "" if usual is None else f"least {minimise}, no worse than {usual.name}"
+            return f"No lower bound of the {quantity_name(minimise)} is known"
+        bettered = "" if usual is None else f"{least(minimise)}, no worse than {usual.name}"
         if candidates.guarding and isinstance(candidates.errors.get(bettered), InfeasibleProblem):
             return f"Proven: none of the {proof.space} has {self.no_more}"
         above = self.law.values[minimise] / bound - 1.0
         near = f" ({_percent(above / (1.0 + above))} less)" if above > _TELLING * EQUALLY_GOOD else ""
-        least = sentence("{}{}", self._with_unit(minimise, bound), near)
+        lowest = sentence("{}{}", self._with_unit(minimise, bound), near)
         if proof.status is Status.OPTIMAL:
             with_no_more = f" with {self.no_more}" if self.no_more else ""
-            proven = sentence("Proven: {}{} have at least {}", proof.space, with_no_more, least)
+            proven = sentence("Proven: {}{} have at least {}", proof.space, with_no_more, lowest)
         else:
-            proven = sentence("Proven: all laws have at least {}", least)
+            proven = sentence("Proven: all laws have at least {}", lowest)
         if proof.best_possible:
             best = self._with_unit(minimise, proof.best_possible)
             proven = sentence("{}, those of any degree at least {}", proven, best)
@@ -178,9 +179,9 @@ class _Words:
         fewer = [law.values for law in self.front if law.values[second] <= 0.5 * taken[second] and law.keeps_limits]
         if not fewer or self.candidates.usual is self.law:
             return ""
-        least = min(fewer, key=lambda values: values[minimise])
-        more, share = least[minimise] / taken[minimise] - 1.0, least[second] / taken[second]
-        return f", and {_percent(share)} of it takes {_percent(more)} more {minimise}"
+        lowest = min(fewer, key=lambda values: values[minimise])
+        more, share = lowest[minimise] / taken[minimise] - 1.0, lowest[second] / taken[second]
+        return f", and {_percent(share)} of it takes {_percent(more)} more {quantity_name(minimise)}"
 
     def _changes(self, usual: AdvisedLaw, word: str, sign: float) -> Iterator[str]:
         for name, other in usual.values.items():
@@ -189,7 +190,7 @@ class _Words:
                 continue
             change = value / other - 1.0
             if sign * change >= EQUALLY_GOOD:
-                yield f"{_percent(abs(change))} {word} {name}"
+                yield f"{_percent(abs(change))} {word} {quantity_name(name)}"
 
     def _with_unit(self, name: str, of: AdvisedLaw | float) -> str:
         value = of.values[name] if isinstance(of, AdvisedLaw) else of
@@ -198,9 +199,10 @@ class _Words:
 
 def _why_not(law: AdvisedLaw) -> str:
     taken = max(law.broken, key=lambda each: each.share)
+    name = quantity_name(taken.name)
     if not taken.text:
-        return f"{law.name} is outside of the {taken.name}"
-    return sentence("{} has {} more {} than {}", law.name, _percent(taken.share - 1.0), taken.name, taken.text)
+        return f"{law.name} is outside of the {name}"
+    return sentence("{} has {} more {} than {}", law.name, _percent(taken.share - 1.0), name, taken.text)
 
 
 def _percent(share: float) -> str:

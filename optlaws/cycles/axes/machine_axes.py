@@ -311,7 +311,7 @@ class Axes(AxesAnswers, Declared, title="stored axes"):
         Raises
         ------
         InputError
-            If a segment is no move from rest to rest and no dwell, or a limit is of the whole cycle, as an rms torque.
+            If a segment is no move from rest to rest and no dwell, or a limit is of the whole cycle, as an RMS torque.
         InfeasibleProblem
             If no instants of these laws keep all interlocks; the error names those that contradict each other.
 

@@ -101,7 +101,7 @@ class FastestSearch:
             return None
         if not self.turning:
             raise InputError(
-                "limits: an rms force or torque of a cycle that is to be fastest is of one that turns as a whole: give "
+                "limits: an RMS force or torque of a cycle that is to be fastest is of one that turns as a whole: give "
                 "all durations as angles"
             )
         return ForceRating(self)

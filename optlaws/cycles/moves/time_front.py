@@ -456,7 +456,7 @@ def _at_motor(name: str, move: TimedMove, drive: Drive | None, start: NumberOrQu
         raise InputError(f"minimise: the {name} is that of a motor: give its drive")
     if name == "torque" and torque.gear is not None:
         raise InputError(
-            "minimise: the least peak torque behind a gear that loses power is not known: minimise the rms torque or "
+            "minimise: the least peak torque behind a gear that loses power is not known: minimise the RMS torque or "
             "the energy, or leave out the efficiency"
         )
     if not (move.at_rest and move.problem.monotone):

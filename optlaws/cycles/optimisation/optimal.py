@@ -383,7 +383,7 @@ def with_share(problem: Problem, span: LawSpan, objective: CycleObjective, share
     value = span_value(span, objective.drive, kind, mean=not of_energy)
     if not of_energy and most <= value.constant:
         raise InfeasibleProblem(
-            f"{span.where}: dry friction alone takes an rms force of {sqrt(value.constant):.9g}, more than what is "
+            f"{span.where}: dry friction alone takes an RMS force of {sqrt(value.constant):.9g}, more than what is "
             f"left for it, {sqrt(max(most, 0.0)):.9g}: allow more, or give the cycle more time"
         )
     left = most - value.constant

@@ -192,7 +192,7 @@ def best_of(layout: Layout, objective: CycleObjective, period: float) -> Best:
         return Best(chosen, remarks, bound_of(layout, laws, objective, period) if remarks else None)
     if objective.drive is None:
         raise InputError(
-            "limits: the rms force and the energy of a cycle are of a drive: give one, such as drive={'mass': '2 kg'}"
+            "limits: the RMS force and the energy of a cycle are of a drive: give one, such as drive={'mass': '2 kg'}"
         )
     return _SharedLimit(layout, objective, period).best()
 
@@ -256,14 +256,14 @@ class _SharedLimit:
     def _too_much(self, taken: float, why: str) -> InfeasibleProblem:
         energy = self._kind is Kind.ENERGY
         most, least = (value if energy else sqrt(value / self.period) for value in (self.most, taken))
-        what = "energy" if energy else f"rms {FORCES[self.objective.axis]}"
+        what = "energy" if energy else f"RMS {FORCES[self.objective.axis]}"
         return InfeasibleProblem(
             f"limits: the {what} over the cycle is to be at most {most:.9g}, but {why} {least:.9g}: allow more, or "
             "give the cycle more time"
         )
 
     def _refuse_too_little(self) -> None:
-        """Refuse an rms force that no law has, by the limits of all laws, where the usual law has more of it."""
+        """Refuse an RMS force that no law has, by the limits of all laws, where the usual law has more of it."""
         from optlaws.laws.catalogue.catalogue import USUAL, catalogue
 
         spans, objective, usual = self.layout.spans, self._of_sum(), catalogue[USUAL].law
@@ -295,7 +295,7 @@ class _SharedLimit:
             if over <= FEASIBILITY * self.left:
                 return Best(laws, (), bound)
             allowed -= over
-        raise SolverFailure(f"{span.where}: no law was found whose rms force with dry friction keeps its limit")
+        raise SolverFailure(f"{span.where}: no law was found whose RMS force with dry friction keeps its limit")
 
     def _within(self, span: LawSpan, allowed: float) -> tuple[Piece, Solution]:
         try:

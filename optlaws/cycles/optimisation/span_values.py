@@ -209,7 +209,7 @@ class DrivenSpan:
             raise InputError(
                 f"drive: dry: {span.where} may turn back, where dry friction jumps and a peak of force or power is not "
                 "proven: leave it out of what is minimised or bounded, take moves between rests, or minimise or bound "
-                "the rms force"
+                "the RMS force"
             )
         if self.drive.linear is not None:
             return self._affine(1.0 if span.displacement > 0.0 else -1.0)
@@ -263,7 +263,7 @@ class DrivenSpan:
             )
         if linear.stiffness or linear.constant or not (linear.inertia or linear.viscous):
             raise InputError(
-                f"drive: dry: {span.where} may turn back: with dry friction the rms force of such a motion is convex "
+                f"drive: dry: {span.where} may turn back: with dry friction the RMS force of such a motion is convex "
                 "only without stiffness, preload and gravity: leave these out, or take moves between rests"
             )
         formula = self._affine(0.0)

@@ -199,7 +199,7 @@ def read_limits(entries: Mapping[str, Any], axis: str, where: str, load: Load = 
             limits = tightest(limits, {Kind.ACCELERATION_ALONG: (-inf, most)} if apart else {kind: (-most, most)})
     if "energy" in entries and (Kind.RMS_FORCE in limits or MOTOR in entries):
         raise InputError(
-            f"{where}: energy and an rms force or torque, which a motor has as well, are both of the whole cycle: give "
+            f"{where}: energy and an RMS force or torque, which a motor has as well, are both of the whole cycle: give "
             "one of them"
         )
     return limits

@@ -9,7 +9,7 @@ const STEPS = { B: 0.001, C: 0.01, D: 0.01, J: 0.1 };
 const WRITTEN = 165; // pixels that the name of the limit takes
 const EDGE = 0.04; // of a range: a name further out would be cut
 
-const NAMES = { B: "peak velocity", C: "peak acceleration", D: "peak power", J: "peak jerk", rms_c: "rms acceleration" };
+const NAMES = { B: "peak velocity", C: "peak acceleration", D: "peak power", J: "peak jerk", rms_c: "RMS acceleration" };
 
 const valueOf = (view, name) => view?.constants?.find((one) => one.name === name);
 

@@ -19,13 +19,14 @@ from optlaws.cycles.advising.advice import (
     proof_in_words,
     standard_candidates,
 )
-from optlaws.cycles.advising.candidates import Candidates
+from optlaws.cycles.advising.candidates import Candidates, LawMeasure
 from optlaws.cycles.specification.segments import OPTIMAL, Move
 from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.cycle_view import MOST_POINTS, CycleRequest
 from optlaws.explorer.views.law_view import refusing
 from optlaws.explorer.views.panel_data import beside_each_other, over_time, panel_data
 from optlaws.numbers import bounded
+from optlaws.sentences import quantity_name
 
 
 @refusing()
@@ -86,7 +87,7 @@ def _side_by_side(
     usual, guarded = candidates.usual, tuple(candidates.most())
     curves = [panel_data(panel) for panel in front_panels(front, x, y, guarded, usual)]
     return {
-        "measures": [measure._asdict() for measure in measures.values()],
+        "measures": [_shown(measure) for measure in measures.values()],
         "rows": [
             {
                 "name": law.name,
@@ -94,14 +95,18 @@ def _side_by_side(
                 "values": [bounded(law.values[name]) for name in measures],
                 "limits": limits_in_words(law),
                 "proof": proof_in_words(law),
-                "more": more_than_usual(law, usual, guarded, x.name),
+                "more": [quantity_name(name) for name in more_than_usual(law, usual, guarded, x.name)],
                 "take": _entries(candidates, law),
             }
             for law in candidates.laws.values()
         ],
-        "picture": {"x": x._asdict(), "y": y._asdict(), "front": [panel["series"] for panel in curves]},
+        "picture": {"x": _shown(x), "y": _shown(y), "front": [panel["series"] for panel in curves]},
         "curves": _curves([law for law in drawn_laws if law is not None]),
     }
+
+
+def _shown(measure: LawMeasure) -> dict[str, str]:
+    return {"name": quantity_name(measure.name), "unit": measure.unit}
 
 
 def _entries(advised: Candidates, law: AdvisedLaw) -> dict[str, Any] | None:

@@ -260,7 +260,7 @@ class Drive(Declared, title="a drive"):
         >>> motor = Motor("3e-4 kg m^2", peak_torque="6 N m", greatest_speed="3000 rpm")
         >>> drive = Drive(Mechanism("0.8 kg m^2"), motor, ratio=20, efficiency=0.85)
         >>> print(drive.limit("rms torque", "0 deg", "45 deg", "0.25 s"))
-        rms torque at least 2.02548 N m
+        RMS torque at least 2.02548 N m
         """
         from optlaws.mechanisms.linkages.move_limit import limit_of
 

@@ -30,6 +30,7 @@ from optlaws.formulas.slopes import scaled
 from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.mechanism_formulas import DIMENSIONS, MOVED, InputAxis, StrokeTorque, duration_of
 from optlaws.numbers import NumberOrQuantity, positive
+from optlaws.sentences import quantity_name
 from optlaws.synthesis.limits.drive_limits import (
     LONG,
     DriveLimit,
@@ -180,7 +181,7 @@ class MoveLimit(Declared, title="the limit of a move"):
     def __str__(self) -> str:
         if self.value in {0.0, -inf}:
             return f"{self.minimise}: no bound {'above 0 ' if self.value == 0.0 else ''}is known"
-        return f"{self.minimise} at least {self.value:.{_DIGITS}g} {self.dimension}"
+        return f"{quantity_name(self.minimise)} at least {self.value:.{_DIGITS}g} {self.dimension}"
 
     def to_dict(self) -> dict[str, Any]:
         plain = {"dimension": self.dimension, "unit": self.unit, **super().to_dict()}

@@ -132,7 +132,7 @@ class MotorTorque(Declared, title="the torque of a move"):
         mean = 0.0 if load is None or self._inertia is None or self.gear is not None else self.unit * max(load, 0.0)
         if self.rms is not None and mean >= self.rms:
             raise InputError(
-                f"the torque at the motor is {mean:.6g} N m in the mean, and the limit of the rms torque is "
+                f"the torque at the motor is {mean:.6g} N m in the mean, and the limit of the RMS torque is "
                 f"{self.rms:.6g} N m: no time keeps it"
             )
 

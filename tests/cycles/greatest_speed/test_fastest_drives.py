@@ -232,7 +232,7 @@ def test_a_rating_with_friction_is_met_and_proven() -> None:
         if says is None:
             assert near.status == "optimal"
         else:
-            with pytest.raises(says, match=r"rms torque over the cycle is to be at most 1\.75"):
+            with pytest.raises(says, match=r"RMS torque over the cycle is to be at most 1\.75"):
                 near.status  # noqa: B018 - laws are looked for when they are asked for
 
 

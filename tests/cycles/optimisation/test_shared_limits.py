@@ -185,7 +185,7 @@ def test_what_is_too_little_is_told_with_what_it_takes() -> None:
         # the velocity of the least rms acceleration is a parabola: 12 h²/T³ of its square in all
         way = math.pi / 2 if kind == "torque" else 0.03
         least = float(next(iter(drive.values())).split()[0]) * (12.0 * way**2 * (0.2**-3 + 0.3**-3)) ** 0.5
-        with pytest.raises(InfeasibleProblem, match=f"the rms {kind} over the cycle is to be at most") as error:
+        with pytest.raises(InfeasibleProblem, match=f"the RMS {kind} over the cycle is to be at most") as error:
             assert cycle(moves, drive=drive, limits={f"rms {kind}": f"{0.9 * least!r} {unit}"}).status
         message = re.search(
             r"at most ([\d.e-]+), but no law, of whatever degree, takes less than ([\d.e-]+)", str(error.value)

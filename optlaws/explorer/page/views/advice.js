@@ -71,7 +71,7 @@ export function createView(root, study) {
   // --- what is asked ---
 
   function build() {
-    const least = choice("least", Object.fromEntries(OBJECTIVES.map((value) => [value, value || "as it says"])), "", (value) => change("least", (asked) => (asked.minimise = value)));
+    const least = choice("least", Object.fromEntries(OBJECTIVES.map((value) => [value, value.replace("rms", "RMS") || "as it says"])), "", (value) => change("least", (asked) => (asked.minimise = value)));
     const on = html("input", { type: "checkbox", onchange: () => change("follower", (asked) => (asked.follower.on = on.checked)) });
     const follower = FOLLOWER.map(([key, label]) => fields.field({ path: ["follower", key], label, placeholder: String(ASKED.follower[key]) }, `follower, ${label}`));
     fields.also((asked) => {
