@@ -359,24 +359,28 @@ class Toggle(LinkageKind, kind="toggle"):
 
     lengths: LengthsByLink = entry(
         Table(LENGTH, LENGTHS),
-        "Of crank, rod, upper and lower link, and frame.",
+        "Between joints: of the crank; of the rod, from the crank's pin to the knee; of the upper link, from its pivot "
+        "to the knee; of the lower link, from the knee to the ram; of the frame, from the crank's pivot to the upper "
+        "link's.",
         example={"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "200 mm", "frame": "280 mm"},
     )
     _: KW_ONLY
     direction: SINumber = entry(
         InSI("angle"),
-        "Of the ram's way, from the direction in which the upper link's pivot is seen from the crank's.",
+        "To where the ram goes as the knee is stretched: the angle, counterclockwise, from the direction in which the "
+        "upper link's pivot is seen from the crank's.",
         default="90 deg",
     )
     bodies: BodiesByLink = entry(
         bodies_of(("crank", "upper"), ("rod", "lower"), ("ram",)),
-        "Of crank and upper link a moment of inertia about the pivot, of the ram a mass, or a `Body`; the lower link "
-        "begins at the knee.",
+        "Of crank and upper link a moment of inertia about the pivot, of the ram a mass; of rod and lower link a "
+        "`Body` whose centre is given from the crank's pin and from the knee.",
         example={"ram": "40 kg"},
     )
     branch: FourBarBranch = entry(
         BRANCH,
-        "Open where the knee is to the left of the way from the crank's pin to the upper link's pivot, else crossed.",
+        "Open where the knee is to the left of the way from the crank's pin to the upper link's pivot, crossed where "
+        "it is to the right.",
         default="open",
     )
 
