@@ -30,13 +30,27 @@ def _read_law(value: Any) -> MotionLaw:
     return MotionLaw.from_dict(value)
 
 
-_DURATION = Either(
-    Measured("angle", "time", above=0.0), Listed(Measured("angle", "time", least=0.0), least=2, most=2), which=is_list
-)
+_FROM_TO = Listed(Measured("angle", "time", least=0.0), least=2, most=2)
+_DURATION = Either(Measured("angle", "time", above=0.0), _FROM_TO, which=is_list)
 _HOW_LONG = (
     "An angle of the master or a time; of two it is free between them, and left out it is what is left of the cycle if "
     "one segment alone is free, else what is best."
 )
+
+
+class _RestTime(Measured):
+    """How long a dwell lasts: of none, free motions beside it would rest there all the same, and axes wait there."""
+
+    def in_range(self, number: float, name: str, value: Any) -> float:
+        if number == 0.0:
+            raise InputError(
+                f"{name} must be above 0, got {shortened(value)}: leave a dwell of no time out; one that only waits "
+                'for another axis has least = "0 s" and no duration'
+            )
+        return super().in_range(number, name, value)
+
+
+_REST = Either(_RestTime("angle", "time", above=0.0), _FROM_TO, which=is_list)
 
 
 class _LawName(Text):
@@ -85,7 +99,7 @@ class Dwell(CycleSegment, kind="dwell"):
     'Dwell'
     """
 
-    duration: Quantity | Sequence[Quantity] | None = entry(_DURATION, _HOW_LONG, default=None, example="120 deg")
+    duration: Quantity | Sequence[Quantity] | None = entry(_REST, _HOW_LONG, default=None, example="120 deg")
     least: Quantity | None = entry(
         Measured("angle", "time", least=0.0),
         'What `Axes.fastest` and `Axes.least_acceleration` leave of it at least: "0 ms" of one that only waits. All of '

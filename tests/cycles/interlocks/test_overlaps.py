@@ -500,3 +500,22 @@ def test_a_least_period_needs_no_period_to_begin_from() -> None:
     angles = [replace(part, duration="90 deg") for part in slide]
     with pytest.raises(InputError, match=r"all durations are angles, which leave the period open: leave out"):
         Axes({"slide": {"segments": angles, "limits": limits}}).fastest()
+
+
+def test_a_dwell_of_no_time_is_refused_with_what_to_write_of_one_that_only_waits() -> None:
+    with pytest.raises(InputError, match=r"above 0, got '0 s': leave .* waits for another axis has least = \"0 s\""):
+        Dwell("0 s")
+    limits = {"acceleration": "20 m/s^2"}
+
+    def machine(wait: list[Dwell], **interlocked: Any) -> Axes:
+        slide = {"segments": [Rise("10 mm"), *wait, Return(), Dwell()], "limits": limits}
+        die = {"segments": [Rise("30 mm"), Return(), Dwell("50 ms")], "limits": limits}
+        return Axes({"slide": slide, "die": die}, **interlocked)
+
+    waits, without = [Dwell(least="0 s")], machine([]).fastest()
+    alone = machine(waits).fastest()
+    assert alone.objective == pytest.approx(without.objective, rel=1e-9)
+    down = After("slide", "5 mm", of="die", below="15 mm", way="down")
+    up = After("die", "15 mm", of="slide", above="8 mm", way="down")
+    waiting = machine(waits, interlocks=[down, up]).fastest()
+    assert [segment.label for segment in waiting["slide"].segments][:3] == ["Rise", "Dwell", "Return"]
