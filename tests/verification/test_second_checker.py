@@ -217,6 +217,18 @@ def test_random_proofs_are_worth_the_same(count: int, seed: int, tmp_path: Path)
             assert result["bound"] == pytest.approx(value, rel=1e-9)
 
 
+@pytest.mark.parametrize("monotone", [False, True])
+def test_of_flat_optima_multipliers_as_they_are_written_prove_the_bound(tmp_path: Path, *, monotone: bool) -> None:
+    # b = B over a whole interval: contacts on many points, of which a solver leaves some 1e-8 of the bound
+    basis = Pieces((0.0, 0.3, 0.55, 1.0), 6, 1)
+    problem = Problem(order=2, basis=basis, minimise="B", monotone=monotone, symmetric=False)
+    solution = synthesize(problem)
+    assert solution.status == "optimal"
+    (result,) = checked(solution.certificate.to_dict(), tmp_path)
+    assert result["verdict"] == "proven"
+    assert result["bound"] == pytest.approx(solution.certificate.bound, rel=1e-11)
+
+
 @pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 def test_what_the_rounding_of_multipliers_hides_is_not_called_false(tmp_path: Path) -> None:
     # smooth splines of many pieces: more coordinates than rows, and moments that take much of what is left

@@ -26,7 +26,7 @@ from optlaws.synthesis.proof.duality import row_of, sum_of_lines
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.sublevel_bounds import Sublevel
 from optlaws.synthesis.spaces.bases import PolynomialBasis
-from optlaws.tolerances import EMPTY_ROW, OPTIMALITY_GAP
+from optlaws.tolerances import EMPTY_ROW, OPTIMALITY_GAP, STATED_BOUND
 
 _LIGHT_SHARES = (1e-13, 1e-12, 1e-11, 1e-10)  # of all multipliers: what each contact has that is there for rounding
 _LEFT_SHARES = (1e-12, 1e-11, 1e-10, 1e-9)  # of a constant's weight: what a proof leaves of it to pay for rounding
@@ -87,12 +87,12 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
         if abs(plain.estimate) <= OPTIMALITY_GAP * model.problem.objective.scale:
             return plain
     proof = certificate(model, optimum, OBJECTIVE)
+    if proof.estimate < objective - STATED_BOUND * abs(objective):
+        # a flat optimum may leave more of its multipliers' sum than the bound that is stated may be off
+        proof = _settled(model, optimum, proof)
     enough = objective - _PROOF_ENOUGH * max(abs(objective), _PROOF_ENOUGH)
     if (proof.estimate >= enough and not _of_one_side(model)) or proof.bound >= enough:
         return proof
-    bent = any(isinstance(family, FormulaFamily | NormFamily | ConeFamily) for family in model.program.families)
-    if bent or objective - proof.bound > OPTIMALITY_GAP * abs(objective):
-        proof = _settled(model, optimum, proof)
     # constants that are nowhere below 0 bound their sum without a contact
     balanced, proof = proof, max(proof, Certificate.of_leaf(model.problem), key=lambda known: known.bound)
     for repairable in spread(model, balanced) if objective - proof.bound > OPTIMALITY_GAP * abs(objective) else ():
@@ -112,7 +112,10 @@ def _settled(model: Model, optimum: ActiveSet, proof: Certificate) -> Certificat
     """The certificate with multipliers, directions and places of tangents changed by as little as balances it."""
     for _ in range(_SETTLINGS):
         better = _shifted(model, optimum, proof)
-        if better is None or better.bound <= proof.bound:
+        # the exact bound may repair what the sum still depends on: of multipliers as they are written doubles say more
+        if better is None or better.estimate < proof.estimate:
+            return proof
+        if better.estimate == proof.estimate and better.bound <= proof.bound:
             return proof
         proof = better
     return proof
