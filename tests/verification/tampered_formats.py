@@ -229,7 +229,9 @@ def same_problem(first: Data, second: Data) -> bool:
 def overstated_row(row: Data, genuine: Data) -> list[str]:
     if not same_problem(row["problem"], genuine["problem"]):
         return ["a row of another problem"]
-    off = abs(row.get("objective", genuine["objective"]) - genuine["objective"]) > CLOSE * abs(genuine["objective"])
+    # null states nothing, as an entry that is left out
+    stated = genuine["objective"] if row.get("objective") is None else row["objective"]
+    off = abs(stated - genuine["objective"]) > CLOSE * abs(genuine["objective"])
     high = (row.get("lower_bound") or -math.inf) > genuine["lower_bound"] + CLOSE * abs(genuine["lower_bound"])
     return [*(["objective"] if off else []), *(["lower bound"] if high else [])]
 

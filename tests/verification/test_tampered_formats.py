@@ -16,7 +16,7 @@ from tests.verification.tampered_formats import (
     places,
     tampered,
 )
-from tests.verification.tampering import value_at
+from tests.verification.tampering import Path, value_at
 
 NAMES = [pytest.param(name, marks=[pytest.mark.long] if name in SLOW else []) for name in formats()]
 
@@ -33,6 +33,15 @@ def test_what_was_not_changed_is_read_and_proven(form: Format) -> None:
         verifications = verify_all(form.data)
         assert all(one.proven for one in verifications.values())
         assert form.wrong_proven(form.data, verifications) == []
+
+
+@pytest.mark.parametrize(("name", "place"), [("front", ("points", 0)), ("table", ("rows", 0, "solution"))])
+def test_an_objective_of_null_states_nothing_and_a_bound_beside_it_is_checked(name: str, place: Path) -> None:
+    form = formats()[name]()
+    without = tampered(form.data, (*place, "objective"), None)
+    assert outcome(form, without) == ("harmless", [])
+    bound = value_at(form.data, (*place, "lower_bound"))
+    assert outcome(form, tampered(without, (*place, "lower_bound"), 1.001 * bound)) == ("refused", [])
 
 
 #: whatever JSON holds, and what no JSON holds
