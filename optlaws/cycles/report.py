@@ -15,6 +15,7 @@ from optlaws.cycles.optimisation.span_values import has_torque_limit
 from optlaws.cycles.placed import Place, limit_rows, overloads
 from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, LimitTaken
 from optlaws.cycles.specification.load import is_process, read_load
+from optlaws.cycles.specified import USUAL_DEGREE
 from optlaws.cycles.usual_law import usual_cycle
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.formulas.tree import Number
@@ -31,6 +32,7 @@ from optlaws.shown.curve_points import refined
 from optlaws.shown.difference import Difference, Differences
 from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
+from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import CYCLE_ROUNDING, INSIDE_PIECE
 
@@ -50,6 +52,8 @@ _LOAD_UNITS = {
     "force": "N",
     "torque": "N m",
 }
+_WIDE_GAP = 0.05  # between the objective and its bound
+_RICHER = "laws of a higher degree may take less: give degree = 21"
 _BOTH_WAYS = 0.01  # of the work against a load: if more comes back, it acts on the way back too
 _EACH = 60  # samples of a piece, to which those are added that its curve needs
 
@@ -386,12 +390,20 @@ def proof_rows(plan: Solved) -> list[Row]:
         return []
     unit = objective_unit(plan)
     rows = [Row("status", plan.status.value), Row(f"least {quantity_name(plan.minimise)}", plan.objective, unit)]
-    bound, gap = plan.lower_bound, ""
+    bound, gap = plan.lower_bound, 0.0
     if bound is not None and plan.status is Status.LOCAL and plan.objective > 0.0:
-        gap = f"gap {100.0 * (1.0 - bound / plan.objective):.2g} %"
+        gap = 1.0 - bound / plan.objective
     none = Row(PROVEN_BOUND, "none is known", note=_why_no_bound(plan))
-    rows.append(none if bound is None else Row(plan.lower_bound_name, bound, unit, note=gap))
-    return [*rows, Row("search space", plan.search_space), *(Row("remark", remark) for remark in plan.remarks)]
+    note = f"gap {100.0 * gap:.2g} %" if gap else ""
+    rows.append(none if bound is None else Row(plan.lower_bound_name, bound, unit, note=note))
+    remarks = [*plan.remarks, *([_RICHER] if gap > _WIDE_GAP and _is_of_usual_degree(plan) else [])]
+    return [*rows, Row("search space", plan.search_space), *(Row("remark", remark) for remark in remarks)]
+
+
+def _is_of_usual_degree(plan: Solved) -> bool:
+    """Whether a law is a polynomial of the degree that a cycle has unless another is given."""
+    bases = (solution.problem.basis for solution in plan.solutions)
+    return any(isinstance(basis, PolynomialBasis) and basis.degree == USUAL_DEGREE for basis in bases)
 
 
 def _why_no_bound(plan: Solved) -> str:

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 FORMAT = "optlaws cycle 1"
 CLOCK = ("speed", "period")
+USUAL_DEGREE = 9
 _JERK = 3
 _SHOWN = 6  # segments in a line
 
@@ -151,7 +152,7 @@ class Specification(Declared, title="a stored cycle"):
         Whole(0, MOST_DEGREE),
         "Of their Z, at least 15 where a velocity is given at an end; order and degree make the laws that are "
         "compared: `search_space` says which.",
-        default=9,
+        default=USUAL_DEGREE,
     )
 
     def _check(self) -> None:

@@ -273,6 +273,20 @@ def test_a_bound_that_a_law_does_not_meet_has_its_gap() -> None:
     assert bound.note == f"gap {100.0 * (1.0 - cycle.lower_bound / cycle.objective):.2g} %"
 
 
+def test_where_a_wide_gap_is_left_a_higher_degree_is_offered_and_gains() -> None:
+    def remarks(cycle: Cycle) -> list[Any]:
+        return [row.value for row in cycle.summary() if row.name == "remark" and "degree" in row.value]
+
+    usual = Cycle(STROKES, period="1 s", minimise="torque", drive=PRESS)
+    richer = replace(usual, degree=21)
+    assert usual.lower_bound is not None
+    assert usual.lower_bound < 0.95 * usual.objective
+    assert remarks(usual) == ["laws of a higher degree may take less: give degree = 21"]
+    assert richer.objective < 0.96 * usual.objective
+    assert remarks(richer) == []
+    assert remarks(Cycle(STROKES, period="1 s", minimise="rms torque", drive=PRESS)) == []  # a gap of 1.6 %
+
+
 def test_the_sheet_of_a_cycle_is_that_of_its_move() -> None:
     """One move and a rest: the same as the sheet of the move; and of two moves the sums of both."""
     motor = Motor("3e-4 kg m^2", rated_torque="2 N m", constant=0.4, curve=[("0 rpm", "6 N m"), ("2000 rpm", "4 N m")])
