@@ -28,6 +28,13 @@ def _whole(_: object, tokens: Sequence[Token]) -> int:
     return int(tokens[0].value)
 
 
+def _signed(_: object, tokens: Sequence[Token]) -> str:
+    token = tokens[0]
+    if token.value.startswith("--"):
+        raise InputError(f"none is given, as {token.value} follows")
+    return token.value
+
+
 _PICTURES = (".png", ".svg")
 
 
@@ -47,7 +54,7 @@ def _check_picture(_: object, file: Path | None) -> None:
 
 Whole = Annotated[int, Parameter(converter=_whole)]
 #: a quantity that may be below 0, which is the library's to take or to refuse
-Signed = Annotated[str | None, Parameter(allow_leading_hyphen=True)]
+Signed = Annotated[str | None, Parameter(allow_leading_hyphen=True, converter=_signed)]
 #: where a command writes what it has found, and where it draws it
 Written = Annotated[Path | None, Parameter(validator=check_file)]
 _JSON = "Print one line of JSON on stdout and nothing else."

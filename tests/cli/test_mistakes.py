@@ -192,6 +192,11 @@ SAID = {
     f"export {TABLE} --to csv --stroke '1 mm'": "a cycle has its own",
     **{f"cycle old.csv --unit mm --master deg --speed={speed}": "must be above 0" for speed in ("0rpm", "-5rpm")},
     "cycle old.csv --unit mm --master deg --speed=3mm": "is a length",
+    **{
+        f"cycle old.csv --unit mm --master deg --modernise{off}": f"above 0, got '{off[1:]}': give how far better laws"
+        for off in (" -0.05mm", "=-0.05mm", " 0mm")
+    },
+    "cycle old.csv --modernise --save new.toml": "value for --modernise: none is given, as --save follows",
     "advise": "give a problem file, or --stroke",
     "advise --stroke 35mm": "give a problem file, or --stroke",
     "advise --stroke 35kg --duration 0.1s": "--stroke must be a length such as",

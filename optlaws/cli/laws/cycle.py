@@ -50,7 +50,7 @@ def cycle(
     fastest: bool = False,
     how: Mapping[str, Any],
     speed: Annotated[Signed, Parameter(group=_GROUP)] = None,
-    modernise: Annotated[str | None, Parameter(group=_GROUP)] = None,
+    modernise: Annotated[Signed, Parameter(group=_GROUP)] = None,
     export: Annotated[str | None, Parameter(group=_GROUP)] = None,
     save: Annotated[Written, Parameter(group=_GROUP)] = None,
     plot: Path | None,
@@ -193,7 +193,14 @@ def _tolerance(text: str, old: OldTable) -> float:
     from optlaws.motion.quantities import either, quantity
 
     dimension, size = either(f"1 {old.unit}", ("length", "angle"), "unit")
-    return quantity(text, dimension, "--modernise", above=0.0) / size
+    off = quantity(text, dimension, "--modernise")
+    if off <= 0.0:
+        such = "0.05mm" if dimension == "length" else "0.05deg"
+        raise InputError(
+            f"--modernise must be above 0, got {shortened(text)}: give how far better laws may be off the old ones, to "
+            f"either side, such as {such}"
+        )
+    return off / size
 
 
 def _saved(latest: OldTable, place: Path, source: Path, speed: str | None) -> dict[str, str]:
