@@ -1,5 +1,6 @@
 """The frame of a table: where its rows begin in a turn, one lobe of several, and rows that are no turn."""
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -137,6 +138,9 @@ def test_better_laws_are_saved_with_their_proofs_and_saved_again_unless_they_cha
     assert capsys.readouterr().out.count(" claims are proven") == 2
     assert exit_code([*ways, "0.1"]) == 2
     assert "without a unit" in capsys.readouterr().err
+    assert exit_code([*ways, "0.1mm", "--json"]) == 0
+    written = json.loads(capsys.readouterr().out)
+    assert (written["saved"], written["proofs"]) == ("new.toml", "new.json")
 
 
 def test_positions_go_on_where_their_encoder_begins_again() -> None:

@@ -216,5 +216,5 @@ def _saved(latest: OldTable, place: Path, source: Path, speed: str | None) -> di
     solutions = [part.solution.to_dict() for part in latest.moves if part.solution is not None]
     if solutions:
         proofs = json.dumps(steady({"about": f"{MARK}, of the laws in {place.name}", "solutions": solutions}), indent=1)
-        files["proofs, for optlaws verify"] = str(write(place.with_suffix(".json"), f"{proofs}\n"))
+        files["proofs"] = str(write(place.with_suffix(".json"), f"{proofs}\n"))
     return files
