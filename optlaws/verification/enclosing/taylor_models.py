@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from functools import reduce
@@ -150,9 +151,10 @@ def cells(
         Whether a cell need not be cut, from how far the functions are off their polynomials alone, and its length:
         where it must be, no polynomial is computed.
     """
-    left, count = [(*ends, False)], 0
+    # the longest first: where there are too many, all kinks are as near to being found
+    left, count = deque([(*ends, False)]), 0
     while left:
-        low, high, kinked = left.pop()
+        low, high, kinked = left.popleft()
         middle, half = (low + high) / 2, ball((high - low) / 2)
         where, count = [ball(low).union(ball(high)), half], count + 1
         # a part of a cell with a kink has mostly one too, for which a few terms are enough
@@ -310,7 +312,8 @@ def integrals(
         shortest = (high - low) / 2**bits
         most, count = _MOST_OF_INTEGRAL, max(8, bits // 2)
         several = cells(functions, arb_series, ends, shortest, terms=count, most=most, by_rests=enough)
-        for (start, stop), parts in several:
+        # sums of the shortest cells first lose least by rounding
+        for (start, stop), parts in reversed(list(several)):
             cell = ball((start + stop - 2 * middle) / (high - low)), ball((stop - start) / (high - low))
             known = parts
             if rough is not None and not all(rest.is_finite() for _, rest in parts):

@@ -126,22 +126,21 @@ _TERMS, _MOST = 48, 20000
 
 def _cells(motion: OutputMotion, start: Fraction, stop: Fraction) -> Iterator[tuple[Ends, list[Taylor]]]:
     """Cells between two times, on each of which outputs are polynomials up to a negligible error."""
-    left = _MOST
+    tries = iter(range(2 * _MOST))
+
+    def enough(least: arb, parts: Sequence[Taylor], _: Fraction) -> bool:
+        # of all cells that are tried, wholes and halves, nearly half are cut again
+        if next(tries, None) is None:
+            raise InputError(f"the output vibrates too fast to be enclosed: more than {_MOST} pieces")
+        # errors of rounding alone need no smaller cells
+        return all(bool(rest < least) for _, rest in parts) or not any(bool(rest > 0) for _, rest in parts)
+
     for stretch in motion.stretches:
         ends = max(start, stretch.start), min(stop, stretch.start + stretch.length)
-        functions, enough = partial(motion.series, stretch), partial(_next_to_nothing, _OUTPUT_REST * stretch.size)
+        functions, negligible = partial(motion.series, stretch), partial(enough, _OUTPUT_REST * stretch.size)
         terms = max(_TERMS, stretch.degree + 1)
-        several = cells(functions, arb_series, ends, Fraction(0), enough, terms=terms, most=inf)
-        for cell in several if ends[0] < ends[1] else ():
-            yield cell
-            left -= 1
-            if left < 0:
-                raise InputError(f"the output vibrates too fast to be enclosed: more than {_MOST} pieces")
-
-
-def _next_to_nothing(least: arb, parts: Sequence[Taylor], _: Fraction) -> bool:
-    """Whether all errors are negligible; errors of rounding alone need no smaller cells."""
-    return all(bool(rest < least) for _, rest in parts) or not any(bool(rest > 0) for _, rest in parts)
+        if ends[0] < ends[1]:
+            yield from cells(functions, arb_series, ends, Fraction(0), negligible, terms=terms, most=inf)
 
 
 def greatest_value(motion: OutputMotion, start: Fraction, stop: Fraction, signs: Sequence[float] = (1.0, -1.0)) -> arb:

@@ -454,3 +454,12 @@ def test_a_kink_is_searched_for_with_a_few_terms() -> None:
     assert area.contains(arb(fmpq(29, 100)))
     assert float(area.rad()) < 1e-15
     assert sum(lengths) < 0.6 * max(lengths) * len(lengths)
+
+
+def test_where_cells_run_out_an_integral_is_known_as_well_on_both_sides() -> None:
+    """Torques of drives that coast touch 0 at many places: of the last ones nothing was known."""
+    text = f"abs(cos({20.0 * pi!r}*k))"
+    [area] = integrals(
+        lambda k: [series_of(of_text(text).formula, {"k": k})], [[fmpq_poly([1])]], (Fraction(0), Fraction(1)), 60
+    )
+    assert abs(area - 2 / arb.pi()) < 1e-10
