@@ -455,3 +455,59 @@ def test_lines_that_meet_in_one_row_are_all_found(
     y = np.interp(x, corners, [0.0, *lift, 0.0]) + np.random.default_rng(rows).normal(0.0, noise, rows)
     table = split_table(x, np.round(y, 4), digit=1e-4)
     assert table.corners == pytest.approx(corners, abs=0.1)
+
+
+def test_half_cycloids_meet_a_constant_velocity_without_a_corner() -> None:
+    """Rounding of their places to half degrees put corners there, and a velocity that was too high by 0.1 %."""
+    x, law = np.linspace(0.0, 360.0, 361), catalogue["cycloidal"].law
+
+    def rise(start: float, length: float) -> np.ndarray:
+        """Half cycloids over a third of the length each, and between these a constant velocity."""
+        k = np.clip((x - start) / length, 0.0, 1.0)
+        ramps = np.asarray(law(0.5 * np.clip(3.0 * k, 0.0, 1.0))) + np.asarray(
+            law(0.5 + 0.5 * np.clip(3.0 * k - 2.0, 0.0, 1.0))
+        )
+        return 2.0 * (2.0 * (ramps - 0.5) + 2.0 * np.clip(3.0 * k - 1.0, 0.0, 1.0))
+
+    exact = rise(30.0, 104.0) - rise(174.0, 89.0)
+    table = split_table(x, np.round(exact + np.random.default_rng(1).normal(0.0, 5e-4, 361), 2), digit=0.01)
+    names = ["half cycloid from rest", "constant velocity", "half cycloid to rest"]
+    assert [part.law for part in table.stretches] == [None, *names, None, *names, None]
+    assert table.corners == ()
+    ends = [30.0, 64.67, 99.33, 134.0, 174.0, 203.67, 233.33, 263.0, 360.0]
+    assert [part.stop for part in table.stretches] == pytest.approx(ends, abs=0.3)
+    assert table.peaks[0].holds(4.0 / (89.0 / 3.0))
+    assert table.peaks[1].holds(2.0 * np.pi * 2.0 * 2.0 / (89.0 * 2.0 / 3.0) ** 2)
+
+
+def test_a_lift_that_leaves_its_ramp_at_rest_has_corners_there() -> None:
+    """The rows of the corners were taken for points far off."""
+    x = np.linspace(0.0, 360.0, 721)
+    lift = BPoly.from_derivatives([120.0, 180.0], [[0.3, 0.0, 0.0], [8.3, 0.0, -0.0075]])
+    u = np.minimum(x, 360.0 - x)
+    y = np.where(u < 120.0, np.clip(0.012 * (u - 95.0), 0.0, 0.3), lift(u)).round(3)
+    table = split_table(x, [float(each) for each in y], digit=1e-3)
+    assert table.corners == pytest.approx((95.0, 120.0, 240.0, 265.0), abs=0.05)
+    assert table.outliers == ()
+    assert [part.stop for part in table.stretches] == pytest.approx([95.0, 120.0, 180.0, 240.0, 265.0, 360.0], abs=0.05)
+
+
+def test_an_index_of_four_lobes_has_four_equal_moves_also_at_its_seam() -> None:
+    """The advance is that of the first and the last row, whose noise bent the last move and made dwells return."""
+    x, law = np.linspace(0.0, 360.0, 721), catalogue["modified sine"].law
+    exact = sum(90.0 * np.asarray(law(np.clip((x - start) / 60.0, 0.0, 1.0))) for start in (30.0, 120.0, 210.0, 300.0))
+    for seed in range(4):
+        y = np.round(exact + np.random.default_rng(seed).normal(0.0, 2e-3, 721), 3)
+        table = split_table(x, y, digit=1e-3)
+        assert [part.law for part in table.stretches] == [None, "modified sine"] * 4
+        assert [part.stop for part in table.stretches] == pytest.approx(
+            np.arange(1, 5).repeat(2) * 90.0 - [60.0, 0.0] * 4, abs=0.1
+        )
+
+
+def test_a_crest_that_noise_makes_look_like_a_long_rest_is_one() -> None:
+    x, law = np.linspace(0.0, 360.0, 3601), catalogue["4-5-6-7 polynomial"].law
+    exact = 2.0 * (law(np.clip((x - 60.0) / 86.0, 0.0, 1.0)) - law(np.clip((x - 146.0) / 115.0, 0.0, 1.0)))
+    table = split_table(x, np.round(exact + np.random.default_rng(1).normal(0.0, 5e-3, 3601), 2), digit=0.01)
+    assert [part.law for part in table.stretches] == [None, *["4-5-6-7 polynomial"] * 2, None]
+    assert [part.stop for part in table.stretches] == pytest.approx([60.0, 146.0, 261.0, 360.0], abs=0.2)

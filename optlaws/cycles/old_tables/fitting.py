@@ -33,6 +33,12 @@ _COARSE = (1, 2, 4)
 #: a smoother joint is preferred if it lowers the sum of squares by so much of what the best one does
 _AS_GOOD = 0.8
 _MOST_JOINTS = 8
+#: pieces from which on corners are looked for where a spline begins and ends
+_CORNERED = 8
+#: of the greatest velocity, and in standard deviations: by so much it changes at a corner
+_CORNER, _CERTAIN = 0.02, 5.0
+#: steps within which a corner is where the rows of a line end
+_NEAR_CORNER = 4.0
 #: how many numbers of pieces are tried without a jump of the acceleration at rests
 _MORE = 6
 #: of a step: about a joint it is looked for within less and less
@@ -133,6 +139,23 @@ class CurveFit:
     pieces: int = 1
     contact: int = 2
     jumps: bool = False
+
+    @property
+    def corners(self) -> tuple[bool, bool]:
+        """Whether it leaves the lines or rests beside it with another velocity."""
+        places = [joint.place for joint in self.joints if joint.continuity == 0]
+        return (
+            self.ends[0].line is not None and self.start in places,
+            self.ends[1].line is not None and self.stop in places,
+        )
+
+    def changes(self) -> tuple[bool, bool]:
+        """Whether it leaves the lines beside it with velocities that differ as at a corner."""
+        at = np.array([self.start, self.stop])
+        off = np.abs(self.values(at, 1) - [end.slope for end in self.ends])
+        greatest = float(np.abs(self.values(np.linspace(self.start, self.stop, _CANDIDATES), 1)).max())
+        first, last = (off > np.maximum(_CORNER * greatest, _CERTAIN * self.deviation(at, 1))).tolist()
+        return bool(self.ends[0].line and first), bool(self.ends[1].line and last)
 
     @property
     def degree(self) -> int:
@@ -276,6 +299,7 @@ class _Fitter:
     fine: float = _FINE  #: of a step: how near the ends of rests are looked for
     degree: int = DEGREE
     contact: int = 2  #: how many derivatives, with the position, are those of a rest or a line where it ends
+    corners: tuple[bool, bool] = (False, False)  #: whether only the position is, where it starts and where it ends
 
     def thinned(self) -> _Fitter:
         """The same with fewer rows, for searches."""
@@ -311,6 +335,8 @@ class _Fitter:
         spline = BSpline(knots, coefficients + factor @ r[:free, free], self.degree)
         if self.advance is not None and self.continuity < 2:
             joints = (Joint(start, self.continuity), *joints, Joint(stop, self.continuity))
+        first, last = ((Joint(at, 0),) * corner for at, corner in zip((start, stop), self.corners, strict=True))
+        joints = (*first, *joints, *last)
         return (
             squares,
             parameters,
@@ -432,10 +458,11 @@ class _Fitter:
         count, degree = len(knots) - self.degree - 1, self.degree
         turned, coefficients = np.eye(count), np.zeros(count)
         fixed = np.zeros(count, dtype=bool)
-        for end, first in zip(self.ends, (0, count - self.contact), strict=True):
+        contacts = [1 if corner else self.contact for corner in self.corners]
+        for end, first, contact in zip(self.ends, (0, count - contacts[1]), contacts, strict=True):
             if end.line is not None:
                 # the coefficients of a straight line are its positions at the means of knots
-                for i in range(first, first + self.contact):
+                for i in range(first, first + contact):
                     fixed[i], coefficients[i] = True, end.value(knots[i + 1 : i + 1 + degree].mean())
         if self.advance is not None:
             for nu in range(self.continuity + 1):
@@ -510,15 +537,11 @@ def fits_of(
     explaining = plain if plain and likely(rough.best(plain).squares, rough.rows) else []
     few = bool(explaining) and rough.best(plain).degree <= _FEW_DEGREES
     joints: tuple[Joint, ...] = ()
-    while smooth is None and not few and len(joints) < _MOST_JOINTS and rough.best(fits).pieces > _SIMPLE:
-        families = [each for pieces in _COARSE if (each := rough.joined(fits, joints, pieces))]
-        if not families:
-            break
-        more, family = min(families, key=lambda each: rough.criterion(rough.best(each[1])))
-        if rough.criterion(rough.best(family)) > rough.criterion(rough.best(fits)) - _EVIDENT:
-            break
-        joints, fits = more, family
-    joints, fits = rough.smoothed(joints, fits)
+    if smooth is None and not few:
+        joints, fits = rough.jointed(fits)
+        if not explaining:
+            rough, joints, fits = rough.with_corners(joints, fits)
+            fitter = replace(fitter, corners=rough.fitter.corners, ends=rough.fitter.ends)
     best = rough.best(fits)
     if explaining and rough.criterion(rough.best(plain)) < rough.criterion(best):
         refined = [_refined(fitter, fit) for fit in rough.accepted(polynomials)]
@@ -636,7 +659,8 @@ class _Search:
     def polynomials(self, at: tuple[float, float]) -> list[CurveFit]:
         """Fits of one polynomial between two rests, of more and more degrees."""
         families = []
-        for contact in _CONTACTS if None not in (end.line for end in self.fitter.ends) else ():
+        at_rests = None not in (end.line for end in self.fitter.ends) and not any(self.fitter.corners)
+        for contact in _CONTACTS if at_rests else ():
             fits = []
             for degree in _DEGREES:
                 if degree * _ROWS_EACH > self.rows or degree > self.most + DEGREE:
@@ -650,6 +674,42 @@ class _Search:
                     break
             families += [fits] if fits else []
         return min(families, key=lambda fits: self.criterion(self.best(fits)), default=[])
+
+    def with_corners(
+        self, joints: tuple[Joint, ...], fits: list[CurveFit]
+    ) -> tuple[_Search, tuple[Joint, ...], list[CurveFit]]:
+        """The search, joints and fits that leave lines or rests with other velocities where these are far likelier."""
+        best, (before, after) = self.best(fits), self.fitter.ends
+        near, corners = _NEAR_CORNER * float(np.median(np.diff(self.fitter.x))), (bool(before.line), bool(after.line))
+        # the rows of a line end at a corner
+        first, last = max(before.low, before.high - near), min(after.high, after.low + near)
+        at_corners = before._replace(low=first), after._replace(high=last)
+        while best.pieces > _CORNERED and self.fitter.advance is None and any(corners):
+            ends = at_corners[0] if corners[0] else before, at_corners[1] if corners[1] else after
+            search = _Search(replace(self.fitter, corners=corners, ends=ends), self.most)
+            middles = [0.5 * (end.low + end.high) for end in ends]
+            at = middles[0] if corners[0] else best.start, middles[1] if corners[1] else best.stop
+            family = search.climbed((), at, 0.0)
+            if not family or search.criterion(search.best(family)) > self.criterion(best) - _EVIDENT:
+                break
+            evident = search.best(family).changes()
+            if evident == corners:
+                return search, *search.jointed(family)
+            corners = corners[0] and evident[0], corners[1] and evident[1]
+        return self, joints, fits
+
+    def jointed(self, fits: list[CurveFit]) -> tuple[tuple[Joint, ...], list[CurveFit]]:
+        """Joints, as smooth as may be, and fits with these, as long as they make the rows far likelier."""
+        joints: tuple[Joint, ...] = ()
+        while len(joints) < _MOST_JOINTS and self.best(fits).pieces > _SIMPLE:
+            families = [each for pieces in _COARSE if (each := self.joined(fits, joints, pieces))]
+            if not families:
+                break
+            more, family = min(families, key=lambda each: self.criterion(self.best(each[1])))
+            if self.criterion(self.best(family)) > self.criterion(self.best(fits)) - _EVIDENT:
+                break
+            joints, fits = more, family
+        return self.smoothed(joints, fits)
 
     def with_jumps(self, fits: Sequence[CurveFit]) -> list[CurveFit]:
         """Fits that know whether the acceleration jumps at a rest: whether the first one without is far less likely."""

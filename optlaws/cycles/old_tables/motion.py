@@ -44,8 +44,12 @@ _MANY, _MORE_NOISE = 100, 1.5
 _BESIDE_CORNER, _TO_ONE_SIDE = (4, 32), 4.0
 #: standard laws whose sums of squares differ by less are told apart by no table
 _ALIKE = 16.0
-#: of a turn: rests that are shorter are looked at as crests too, and the moves of one without rest begin so far off it
-_SHORT, _BEYOND_TURN = 0.05, 0.1
+#: of a turn: rests that are shorter are looked at as crests too, or for standard laws alone
+_SHORT, _NOT_LONG = 0.05, 0.1
+#: of a turn: the moves of one without rest begin so far off it
+_BEYOND_TURN = 0.1
+#: times what noise leaves open: an advance is rounded to what is more, 10, 1, 0.1 and so on
+_ROUND_ADVANCE = 10.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +68,8 @@ class FittedMove:
         The intervals of velocity, acceleration and jerk.
     slopes
         The velocities of the lines beside it. Where these meet is a corner, a move without length.
+    corners
+        Whether the velocity jumps at its ends.
     """
 
     start: float
@@ -75,18 +81,12 @@ class FittedMove:
     nearest: str
     peaks: tuple[PeakInterval, ...] = ()
     slopes: tuple[float, float] = (0.0, 0.0)
+    corners: tuple[bool, bool] = (False, False)
 
     @property
     def is_corner(self) -> bool:
         """Whether it is the place alone at which two lines meet."""
         return self.start == self.stop
-
-    @property
-    def corners(self) -> tuple[bool, bool]:
-        """Whether the velocity jumps at its ends: standard laws know nothing of the lines beside them."""
-        return (
-            (True, True) if self.is_corner else (bool(self.name and self.slopes[0]), bool(self.name and self.slopes[1]))
-        )
 
     def position_before(self, place: float) -> float:
         """The position at a place before it, on the line from which it starts."""
@@ -133,8 +133,8 @@ def motion_of(samples: Samples) -> FittedMotion:
     advance = _advance(clean)
     turn, crests, tried, known = float(np.ptp(clean.places)), list[float](), list[float](), dict[object, _Parts]()
     doubtful = _doubtful(clean, rests)
-    all_crests = len(doubtful) == len(rests) or (doubtful and _explained_by_crests(clean, doubtful, advance))
-    begun, rests, divided = _divided(clean, doubtful if all_crests else [], advance, known)
+    plain = doubtful if len(doubtful) == len(rests) else _explaining_crests(clean, rests, advance)
+    begun, rests, divided = _divided(clean, plain, advance, known)
     if not divided.moves or not all(move.name or move.is_corner for move in divided.moves):
         begun, rests, divided = _divided(clean, crests, advance, known)
         while untried := [middle for middle in _doubtful(begun, rests) if middle not in tried]:
@@ -184,21 +184,26 @@ def _divided(
         crests += more
 
 
-def _explained_by_crests(samples: Samples, crests: list[float], advance: float) -> bool:
-    """Whether standard laws explain the rows where short rests are crests, and do not where these are rests."""
-    seam = float(samples.places[-1])
-    return [
-        all(
-            _Region(begun, *beside, seam, advance, split=True).is_explained for beside in pairwise([None, *rests, None])
-        )
-        for begun, rests in (_begun(samples, each, advance) for each in (crests, []))
-    ] == [True, False]
+def _explaining_crests(samples: Samples, rests: Sequence[Line], advance: float) -> list[float]:
+    """The middles of rests, not long ones, that are crests where standard laws explain the rows far better then."""
+    doubtful = _doubtful(samples, rests, _NOT_LONG)
+    if not doubtful:
+        return []
+    seam, tried = float(samples.places[-1]), list[tuple[float, list[float]]]()
+    for crests in ([], doubtful, *([middle] for middle in doubtful if len(doubtful) > 1)):
+        begun, others = _begun(samples, crests, advance)
+        regions = (_Region(begun, *beside, seam, advance, split=True) for beside in pairwise([None, *others, None]))
+        explained = [region.explained() for region in regions]
+        parts = [each for each in explained if each is not None]
+        if len(parts) == len(explained):
+            tried.append((_Parts.joined(parts).criterion(len(samples.places)), crests))
+    return min(tried, key=lambda each: each[0], default=(0.0, list[float]()))[1]
 
 
-def _doubtful(samples: Samples, rests: Sequence[Line]) -> list[float]:
+def _doubtful(samples: Samples, rests: Sequence[Line], short: float = _SHORT) -> list[float]:
     """The middles of short rests in noise, also over the end of a turn, which may be the crest of one motion."""
     x, y = samples.places, samples.heights
-    most, over_end = _SHORT * float(np.ptp(x)), 0.0
+    most, over_end = short * float(np.ptp(x)), 0.0
     if rests and rests[0].first == 0 and rests[-1].last == len(x) - 1:
         over_end = float(x[rests[0].last] - x[0] + x[-1] - x[rests[-1].first])
     middles = []
@@ -236,9 +241,21 @@ def _crests(samples: Samples, rests: Sequence[Line], moves: Sequence[FittedMove]
 
 
 def _advance(samples: Samples) -> float:
-    """What the motion advances by in a turn; 0 where the noise does not tell it from 0."""
+    """What the motion advances by in a turn, as round as the noise of two rows allows; 0 where this tells it from none.
+
+    The advance of an indexing table or of a feed is a number of whole steps.
+    """
     advance = float(samples.heights[-1] - samples.heights[0])
-    return 0.0 if abs(advance) <= NOISE_ROOM * float(samples.noise.max()) + samples.digit else advance
+    room = NOISE_ROOM * float(samples.noise.max()) + samples.digit
+    if abs(advance) <= room:
+        return 0.0
+    unit = 10.0 ** np.floor(np.log10(abs(advance)))
+    while unit >= _ROUND_ADVANCE * room:
+        nearest = round(advance / unit) * unit
+        if abs(nearest - advance) <= room:
+            return float(nearest)
+        unit *= 0.1
+    return advance
 
 
 def _begun(samples: Samples, crests: Sequence[float], advance: float) -> tuple[Samples, list[Line]]:
@@ -252,6 +269,10 @@ def _begun(samples: Samples, crests: Sequence[float], advance: float) -> tuple[S
             at = low + np.mod(np.array(crests) - low, np.ptp(samples.places))
             if not np.any(at < high):
                 lines.append(rest)
+        if advance and len(lines) > 1 and lines[0].first == 0 and lines[-1].last == len(turn.heights) - 1:
+            counts = [rest.last - rest.first + 1 for rest in (lines[0], lines[-1])]
+            level = float(np.average([lines[0].level, lines[-1].level - advance], weights=counts))
+            lines[0], lines[-1] = replace(lines[0], level=level), replace(lines[-1], level=level + advance)
         return lines
 
     rests = rests_in(samples)
@@ -351,7 +372,7 @@ class _Region:
             chains = self._chains(places)
             if chains and self._left_out(chains[0]):
                 continue
-            plain = bool(chains) and likely(chains[0].squares, len(self.x))
+            plain = bool(chains) and self._is_plain(chains[0])
             straight = None if plain or not lines else straight or self._straight_parts(lines)
             if self._needs_no_spline(straight):
                 return straight
@@ -403,7 +424,8 @@ class _Region:
             return _Parts(list(self._of_fits((), self.about, [""])), self._resting(), self.rows, [])
         place, height, squares = self._corner
         slopes = self.ends[0].slope, self.ends[1].slope
-        return _Parts([FittedMove(place, place, height, height, (), "", "", slopes=slopes)], squares, 0, [])
+        corner = FittedMove(place, place, height, height, (), "", "", slopes=slopes, corners=(True, True))
+        return _Parts([corner], squares, 0, [])
 
     def _ends_at_seam(self, fits: Sequence[CurveFit]) -> tuple[End, End] | None:
         """Its ends, of which one that moves about the seam is exactly there; None where there is none."""
@@ -422,17 +444,19 @@ class _Region:
                 keys = list(pairwise([self.before, *some, self.after]))
                 for key in keys:
                     if key not in explained:
-                        explained[key] = self._part(*key).is_explained
+                        explained[key] = self._part(*key).explained() is not None
                 if all(explained[key] for key in keys):
                     return self._parts_between(some, {})
         return None
 
-    @property
-    def is_explained(self) -> bool:
-        """Whether noise alone is between its rows and rests, a corner or standard laws."""
+    def explained(self) -> _Parts | None:
+        """The sum of squares where noise alone is between its rows and rests, a corner or standard laws; else None."""
         if self._has_few_rows:
-            return not self.moves_at_all or self._corner is not None
-        return any(likely(chain.squares, len(self.x)) for chain in self._chains(self._turns())[:1])
+            if not self.moves_at_all:
+                return _Parts([], self._resting(), 0, [])
+            return None if self._corner is None else self._few_rows()
+        chains = self._chains(self._turns())
+        return _Parts([], chains[0].squares, chains[0].free, []) if chains and self._is_plain(chains[0]) else None
 
     def _part(self, before: Line | None, after: Line | None) -> _Region:
         return _Region(self.samples, before, after, self.seam, 0.0, split=False)
@@ -502,17 +526,32 @@ class _Region:
         off = np.pad(off / max(float(np.median(off)) / MEDIAN, 1.0), 1)
         beside = np.maximum(off[:-2], off[2:])
         far = inside[(off[1:-1] > _FAR) & (beside < _ALONE * off[1:-1])]
+        far = far[[self._stands_out(int(row), abs(self.y[row] - fit.height(self.x[row]))) for row in far]]
         if not far.size or len(self.far) + len(far) > _FEW * len(self.x) + 1:
             return False
         self.far += self.x[far].tolist()
         self.x, self.y, self.noise = (np.delete(row, far) for row in (self.x, self.y, self.noise))
         return True
 
+    def _stands_out(self, row: int, off: float) -> bool:
+        """Whether a row is off the cubic of those beside it as well, by most of what it is off a spline."""
+        beside = np.array([row - 2, row - 1, row + 1, row + 2])
+        if beside[0] < 0 or beside[-1] >= len(self.x):
+            return True
+        cubic = np.polyfit(self.x[beside] - self.x[row], self.y[beside], 3)
+        return bool(abs(self.y[row] - cubic[-1]) > _ALONE * off)
+
+    def _is_plain(self, chain: Chain) -> bool:
+        """Whether standard laws leave nothing but noise."""
+        return likely(chain.squares, len(self.x)) and not chain.is_bent
+
     def _explains(self, chain: Chain, fit: CurveFit) -> bool:
         """Whether rows are as near standard laws as splines make likely, by the test of Fisher or the simpler model."""
         from scipy.special import fdtrc
 
         rows = len(self.x)
+        if chain.is_bent:
+            return False
         left, best = max(rows - chain.free, 1), max(rows - fit.free, 1)
         more = fit.free - chain.free
         if more <= 0:
@@ -545,8 +584,12 @@ class _Region:
             resting = outline.chains(min(long, 0.2 * float(np.diff(places).min())))
             if resting[0].squares < chains[0].squares - _ALIKE:
                 chains = resting
-        nearest = chains[0].rounded(self.x, self.y, self.noise, self.digit, bounds)
-        return [nearest, *(each for each in chains if each.squares <= chains[0].squares + _ALIKE)]
+        nearest, rows = chains[0], len(self.x)
+        smooth = outline.smoothly(nearest)
+        if smooth and criterion(smooth.squares, smooth.free, rows) <= criterion(nearest.squares, nearest.free, rows):
+            nearest = smooth
+        rounded = nearest.rounded(self.x, self.y, self.noise, self.digit, bounds)
+        return [rounded, *(each for each in chains if each.squares <= chains[0].squares + _ALIKE)]
 
     def _of_chain(self, chains: Sequence[Chain], fits: Sequence[CurveFit]) -> Iterator[FittedMove]:
         chain = chains[0]
@@ -558,13 +601,15 @@ class _Region:
             if not name:
                 continue
             low, high = map(float, chain.places[i : i + 2])
-            slopes = chain.slopes[0] if i == 0 else 0.0, chain.slopes[1] if i == len(chain.names) - 1 else 0.0
+            at_ends = i == 0, i == len(chain.names) - 1
+            slopes = at_ends[0] * chain.slopes[0], at_ends[1] * chain.slopes[1]
+            corners = bool(slopes[0]) and not chain.smooth[0], bool(slopes[1]) and not chain.smooth[1]
             most = []
             for nu in (1, 2, 3):
                 standard = (1.0 + _ROUNDED_LAW) * max(
                     each.peak(i, nu) * (1.0 + _UNCERTAIN * each.uncertainty(i, nu)) for each in chains
                 )
-                if any(each[i] for each in jumps[: nu - 1]) or (nu > 1 and any(slopes)):
+                if any(each[i] for each in jumps[: nu - 1]) or (nu > 1 and any(corners)):
                     standard = np.inf
                 most.append(max(standard, most_peak(simple, nu, low, high) if simple else 0.0))
             at = self._seam_within(low, high)
@@ -573,7 +618,7 @@ class _Region:
                 continue
             first, last = map(float, chain.heights[i : i + 2])
             peaks = [self._interval(nu, low, high, most[nu - 1], variance) for nu in (1, 2, 3)]
-            yield FittedMove(low, high, first, last, tuple(fits), name, name, tuple(peaks), slopes)
+            yield FittedMove(low, high, first, last, tuple(fits), name, name, tuple(peaks), slopes, corners)
 
     def _of_fits(self, fits: Sequence[CurveFit], places: Sequence[float], near: Sequence[str]) -> Iterator[FittedMove]:
         most = None
@@ -625,8 +670,9 @@ class _Region:
                 most_peak(fits, nu, low, high) + self._missing(fits[0], nu, low, high) for nu in (1, 2, 3)
             ]
             peaks = [self._interval(nu, low, high, bounds[nu - 1], variance) for nu in (1, 2, 3)]
-            slopes = fits[0].ends[0].slope, fits[0].ends[1].slope
-            yield FittedMove(low, high, first, last, tuple(fits), "", nearest, tuple(peaks), slopes)
+            slopes, corners = (fits[0].ends[0].slope, fits[0].ends[1].slope), fits[0].corners
+            corners = corners[0] and low == nodes[0], corners[1] and high == nodes[-1]
+            yield FittedMove(low, high, first, last, tuple(fits), "", nearest, tuple(peaks), slopes, corners)
 
     def _missing(self, fit: CurveFit, nu: int, low: float, high: float) -> float:
         """What the rows show of a derivative that a fit has not: at joints that it smooths."""
@@ -656,7 +702,7 @@ def _is_between_longer(before: _Parts, after: _Parts) -> bool:
 
 def _is_simple(fits: Sequence[CurveFit]) -> bool:
     """Whether a spline of few pieces, or a polynomial of few degrees, is near the rows."""
-    if not fits or fits[0].joints or fits[0].variance > UNRESOLVED:
+    if not fits or len(fits[0].joints) > sum(fits[0].corners) or fits[0].variance > UNRESOLVED:
         return False
     return max(fits[0].pieces, fits[0].degree - DEGREE) <= SIMPLE
 

@@ -108,7 +108,9 @@ def most_peak(fits: Sequence[CurveFit], nu: int, low: float, high: float) -> flo
         start, stop = max(low, fit.start), min(high, fit.stop)
         if not start < stop:
             continue
-        if any(joint.continuity < nu and start <= joint.place <= stop for joint in fit.joints):
+        # a velocity is known where a move leaves a line at a corner, and not about one within
+        joints = [joint.place for joint in fit.joints if joint.continuity < nu]
+        if any(start <= at <= stop and (nu > 1 or fit.start < at < fit.stop) for at in joints):
             return inf
         inner = fit.breaks[(fit.breaks > start) & (fit.breaks < stop)]
         edges = np.concatenate([[start], inner, [stop]])

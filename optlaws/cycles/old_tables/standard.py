@@ -35,6 +35,8 @@ _APART = 1e-9
 _INTERVALS = 2048
 #: moves of a chain of which every combination of the best laws is tried
 _MOST_COMBINED = 3
+#: of the velocity of a line: a law that starts from it with one that differs by less may start with it, or by far less
+_NEARLY, _CORNER = 0.2, 0.02
 #: of the greatest velocity or acceleration: by so much it jumps where moves meet
 JUMP = 1e-3
 #: parts of each piece of a law, each as a polynomial
@@ -63,6 +65,8 @@ class Chain:
         Of a chain that goes on at its beginning where it ends: its length, and what it advances by; else 0.
     slopes
         The velocities of the lines from which it starts and in which it ends, of which its laws may know nothing.
+    smooth
+        Whether it starts and ends with these velocities.
     """
 
     names: tuple[str, ...]
@@ -74,6 +78,7 @@ class Chain:
     turn: float = 0.0
     advance: float = 0.0
     slopes: tuple[float, float] = (0.0, 0.0)
+    smooth: tuple[bool, bool] = (False, False)
 
     def __call__(self, x: Array) -> Array:
         """The positions at places; those of the lines beside it beyond its ends."""
@@ -92,6 +97,7 @@ class Chain:
             heights[[0, -1]] += self.slopes * (inside - self.places)[[0, -1]]
             if self.turn:
                 inside[-1], heights[-1] = inside[0] + self.turn, heights[0] + self.advance
+            inside = _smoothed(self.names, inside, heights, self.slopes, self.smooth)
             if np.all(np.diff(inside) > 0.0):
                 tried = replace(self, places=inside, heights=heights)
                 off = tried(x) - y
@@ -117,6 +123,22 @@ class Chain:
         stroke = abs(self.heights[move + 1] - self.heights[move])
         return float(stroke / length**nu * catalogue[self.names[move]].law.peak(nu).value)
 
+    @property
+    def changes(self) -> tuple[float, float]:
+        """By which shares of the velocities of the lines its laws start and end with others; 0 at rests."""
+        changes = [0.0, 0.0]
+        for side in (0, 1):
+            if self.slopes[side] and not self.smooth[side]:
+                stroke, length = np.diff(self.heights)[-side], np.diff(self.places)[-side]
+                velocity = stroke / length * catalogue[self.names[-side]].law(float(side), 1)
+                changes[side] = abs(float(velocity) / self.slopes[side] - 1.0)
+        return changes[0], changes[1]
+
+    @property
+    def is_bent(self) -> bool:
+        """Whether its velocity changes where it meets a line, by less than at a corner: it is not that of the rows."""
+        return any(JUMP < change < _CORNER for change in self.changes)
+
     def jumps(self, nu: int) -> NDArray[np.bool_]:
         """Whether a derivative jumps at an end of each move; it rests beside its own, or goes on at the other."""
         ends, greatest = np.zeros((len(self.names), 2)), 0.0
@@ -126,7 +148,8 @@ class Chain:
                 ends[i] = scale * np.array([catalogue[name].law(k, nu) for k in (0.0, 1.0)])
                 greatest = max(greatest, self.peak(i, nu))
         before, after = np.roll(ends[:, 1], 1), np.roll(ends[:, 0], -1)
-        before[0], after[-1] = (before[0], after[-1]) if self.turn else (0.0, 0.0)
+        lines = self.slopes if nu == 1 else (0.0, 0.0)
+        before[0], after[-1] = (before[0], after[-1]) if self.turn else lines
         apart = np.maximum(np.abs(ends[:, 0] - before), np.abs(ends[:, 1] - after))
         return np.asarray(apart > JUMP * greatest)
 
@@ -138,6 +161,18 @@ class Chain:
         ends = self.deviations[[move, move + 1]]
         levels = self.deviations[[count + move, count + move + 1]]
         return float(nu * np.hypot(*ends) / length + np.hypot(*levels) / stroke)
+
+
+def _smoothed(
+    names: Sequence[str], places: Array, heights: Array, slopes: tuple[float, float], smooth: tuple[bool, bool]
+) -> Array:
+    """Places of which those beside the first and the last one make laws meet lines with their velocities."""
+    moved = places.copy()
+    for side, (end, beside) in enumerate(((0, 1), (-1, -2))):
+        if smooth[side]:
+            velocity = float(catalogue[names[-side]].law(float(side), 1))
+            moved[beside] = places[end] + velocity * (heights[beside] - heights[end]) / slopes[side]
+    return moved
 
 
 def _positions(names: Sequence[str], places: Array, heights: Array, x: Array) -> Array:
@@ -197,6 +232,8 @@ class Outline:
         Of rows of a whole turn, which the moves go round: its length, and what they advance by; else 0.
     slopes
         The velocities of the lines on which the first and the last place are, where their heights are known.
+    smooth
+        Whether laws meet these lines with their velocities.
     """
 
     x: Array
@@ -209,6 +246,7 @@ class Outline:
     turn: float = 0.0
     advance: float = 0.0
     slopes: tuple[float, float] = (0.0, 0.0)
+    smooth: tuple[bool, bool] = (False, False)
 
     def chains(self, resting: float = 0.0) -> list[Chain]:
         """Chains of standard laws near the rows, the nearest first; they rest about so long where they turn."""
@@ -232,6 +270,14 @@ class Outline:
         rough = self.fitted(names, _interpolated, _CLOSE_STEPS)
         return replace(self, places=rough.places, heights=rough.heights).fitted(names, _exact, _CLOSE_STEPS)
 
+    def smoothly(self, chain: Chain) -> Chain | None:
+        """The chain that meets lines with their velocities where its laws nearly do; None where none does."""
+        smooth = [0.0 < change < _NEARLY for change in chain.changes]
+        if not any(smooth) or len(chain.places) != len(self.places) or (all(smooth) and len(self.places) == 2):
+            return None
+        outline = replace(self, places=chain.places, heights=chain.heights, smooth=(smooth[0], smooth[1]))
+        return outline.fitted(chain.names, _exact, _CLOSE_STEPS)
+
     def _resting(self, length: float) -> Outline:
         """The outline with rests of a length where the moves meet."""
         inner = np.repeat(np.arange(1, len(self.places) - 1), 2)
@@ -253,8 +299,8 @@ class Outline:
         costs = [(single.fitted((name,), _interpolated, _ROUGH_STEPS).squares, name) for name in catalogue]
         return [name for _, name in sorted(costs)]
 
-    def fitted(self, names: tuple[str, ...], laws: _Laws, steps: int) -> Chain:
-        """The chain of given laws whose places, and heights that are not known, are nearest the rows."""
+    def _freedom(self, names: Sequence[str]) -> tuple[NDArray[np.intp], Array]:
+        """Which height each one is, and how all places and heights change with those that are free, as a matrix."""
         count = len(self.places)
         source = np.arange(count)  # a rest ends at the height of its start
         for i, name in enumerate(names):
@@ -267,7 +313,18 @@ class Outline:
         for column, i in enumerate(free):
             spread[count + np.flatnonzero(source == i), count + column] = 1.0
         spread[[count, -1], [0, count - 1]] += self.slopes
-        ends = np.concatenate([np.clip(self.places, *self.bounds), self.heights[source]])
+        for at_end, (end, beside) in enumerate(((0, 1), (count - 1, count - 2))):
+            if self.smooth[at_end]:
+                velocity = float(catalogue[names[-at_end]].law(float(at_end), 1)) / self.slopes[at_end]
+                spread[beside] = spread[end] + velocity * (spread[count + beside] - spread[count + end])
+        return source, spread[:, [column for column in range(spread.shape[1]) if spread[:, column].any()]]
+
+    def fitted(self, names: tuple[str, ...], laws: _Laws, steps: int) -> Chain:
+        """The chain of given laws whose places, and heights that are not known, are nearest the rows."""
+        count = len(self.places)
+        source, spread = self._freedom(names)
+        begun = _smoothed(names, np.clip(self.places, *self.bounds), self.heights[source], self.slopes, self.smooth)
+        ends = np.concatenate([begun, self.heights[source]])
         if self.turn:
             spread[count - 1, 0], ends[count - 1] = 1.0, ends[0] + self.turn
             spread, ends[-1] = np.delete(spread, count - 1, axis=1), ends[-1] + self.advance
@@ -281,7 +338,7 @@ class Outline:
             tried = ends + spread @ step
             inside = np.clip(tried[:count], *self.bounds)
             tried[[count, -1]] += self.slopes * (inside - tried[:count])[[0, -1]]
-            tried[:count] = inside
+            tried[:count] = _smoothed(names, inside, tried[count:], self.slopes, self.smooth)
             tried[count - 1] = tried[0] + self.turn if self.turn else tried[count - 1]
             if np.all(np.diff(tried[:count]) > _APART * np.ptp(self.places)):
                 new_left, slopes = self._missed(names, laws, tried)
@@ -301,8 +358,9 @@ class Outline:
         deviations = np.sqrt(variance * np.maximum(np.diag(spread @ np.linalg.pinv(matrix.T @ matrix) @ spread.T), 0.0))
         free_ends = spread.shape[1]
         return Chain(
-            names, ends[:count], ends[count:], squares, free_ends, deviations, self.turn, self.advance, self.slopes
-        )
+            names, ends[:count], ends[count:], squares, free_ends, deviations, self.turn, self.advance, self.slopes,
+            self.smooth,
+        )  # fmt: skip
 
     def _missed(self, names: Sequence[str], laws: _Laws, ends: Array) -> tuple[Array, Array]:
         """How far a chain misses the rows, in deviations of their noise, and its derivatives by places and heights."""

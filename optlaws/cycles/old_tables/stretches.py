@@ -21,6 +21,8 @@ from optlaws.tolerances import VALUE_ROUNDING
 
 StretchKind: TypeAlias = Literal["dwell", "rise", "return"]
 
+#: standard deviations by which a velocity of a line may be off
+_SLOPE_DEVIATIONS = 3.0
 #: of a move: breaks that are nearer to its ends are these
 _APART = 1e-9
 
@@ -109,7 +111,7 @@ def _parts_of(motion: FittedMotion) -> Iterator[Stretch]:
         start = move.start if move.start - at > least else at
         start = start if float(x[-1]) - start > least else float(x[-1])
         if start > at:
-            yield _between(at, start, level, move.low, least_rise, corner=corner or move.corners[0])
+            yield _between(motion, at, start, level, move.low, least_rise, corner=corner or move.corners[0])
         corner = move.corners[1]
         if move.is_corner:
             at, level = start, move.low
@@ -120,18 +122,24 @@ def _parts_of(motion: FittedMotion) -> Iterator[Stretch]:
         yield Stretch(kind, start, stop, move.low, move.high, law, move.nearest, peaks=move.peaks)
         at, level = stop, move.high
     if float(x[-1]) > at:
-        yield _between(
-            at, float(x[-1]), level, motion.moves[-1].position_behind(float(x[-1])), least_rise, corner=corner
-        )
+        last = motion.moves[-1].position_behind(float(x[-1]))
+        yield _between(motion, at, float(x[-1]), level, last, least_rise, corner=corner)
 
 
-def _between(start: float, stop: float, low: float, high: float, least: float, *, corner: bool) -> Stretch:
+def _between(
+    motion: FittedMotion, start: float, stop: float, low: float, high: float, least: float, *, corner: bool
+) -> Stretch:
     """A dwell, or what runs at constant velocity and rises or falls by more than the least, maybe beside a corner."""
     if abs(high - low) <= least:
         return Stretch("dwell", start, stop, low, high)
     slope = abs((high - low) / (stop - start))
     most = inf if corner else 0.0
-    peaks = PeakInterval(slope, slope), PeakInterval(0.0, most), PeakInterval(0.0, most)
+    x, noise = motion.samples.places, motion.samples.noise
+    inside = (x >= start) & (x <= stop)
+    # the deviation of a slope by so many even rows
+    off = _SLOPE_DEVIATIONS * np.sqrt(12.0 / max(inside.sum(), 2)) * noise[inside].max(initial=0.0) / (stop - start)
+    velocity = PeakInterval(max(slope - float(off), 0.0), slope + float(off))
+    peaks = velocity, PeakInterval(0.0, most), PeakInterval(0.0, most)
     name = "constant velocity"
     return Stretch("rise" if high > low else "return", start, stop, low, high, name, name, peaks=peaks)
 
