@@ -245,12 +245,26 @@ def test_the_fastest_cycle_and_the_fastest_move_never_turn_back_alike() -> None:
     assert found.segments[0].least == pytest.approx(move.duration, rel=1e-8)
 
 
-@pytest.mark.parametrize("smooth", [{}, pytest.param({"jerk": "900 m/s^3"}, marks=pytest.mark.long)], ids=str)
-def test_joined_motions_of_the_fastest_cycle_never_turn_back(smooth: dict[str, str]) -> None:
+@pytest.mark.parametrize(
+    ("smooth", "degree"),
+    [
+        ({}, 5),
+        pytest.param({}, 9, marks=pytest.mark.long),
+        pytest.param({"jerk": "900 m/s^3"}, 9, marks=pytest.mark.long),
+    ],
+    ids=str,
+)
+def test_joined_motions_of_the_fastest_cycle_never_turn_back(smooth: dict[str, str], degree: int) -> None:
+    def turned_back(least: str) -> float:
+        """The greatest velocity against the way of a piece, within limits of the velocity from the least one on."""
+        limits: dict[str, Any] = {"velocity": (least, "1 m/s"), "acceleration": "20 m/s^2", **smooth}
+        several = cycle(segments=ways, limits=limits, degree=degree).fastest().cycle
+        return max(backwards(several, i) for i in range(len(several.pieces)))
+
     ways = [Dwell("90 deg"), Free("30 mm", "90 deg"), Free("5 mm", "60 deg"), Return("35 mm")]
-    limits: dict[str, Any] = {"velocity": ("0 m/s", "1 m/s"), "acceleration": "20 m/s^2", **smooth}
-    several = cycle(segments=ways, limits=limits).fastest().cycle
-    assert max(backwards(several, i) for i in range(len(several.pieces))) < 1e-8
+    assert turned_back("0 m/s") < 1e-8
+    if not smooth:
+        assert turned_back("-1 m/s") > 0.1
 
 
 _SOME = st.none() | st.floats(1.0, 99.0)
