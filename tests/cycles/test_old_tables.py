@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from optlaws import Cycle, Dwell, InputError, Return, Rise, catalogue, read_cycle_table, smoothstep, split_table
-from tests.internals.cycles import law_of_move, nothing_to_better
+from tests.internals.cycles import OldTableReport, law_of_move, nothing_to_better
 
 PROGRAMME = [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()]
 
@@ -106,3 +106,31 @@ def test_a_move_without_acceleration_keeps_its_law(law: str, what: str) -> None:
     for gain in better.gains(split):
         assert not gain.share(2) > 0.0
         assert gain.deviation <= 0.05 * (1.0 + 1e-9)
+
+
+def test_the_whole_cycle_is_compared_where_corners_were_taken_away() -> None:
+    """A tappet whose corners become smooth: an acceleration and a jerk in place of infinite ones."""
+    x = np.arange(0.0, 361.0)
+    old = split_table(x, np.interp(x, [60.0, 100.0, 200.0, 290.0], [0.0, 4.0, 4.0, 0.0]), digit=1e-3)
+    new = old.bettered(0.05)
+    whole = new.gain_of_cycle(old)
+    assert whole.kind == "whole cycle"
+    assert whole.old[1:] == (np.inf, np.inf)
+    blends = [part for part in new.moves if part.corner is not None]
+    steepest = max(
+        abs(part.stroke) / (part.stop - part.start) ** 2 * law_of_move(part).peak(2).value for part in blends
+    )
+    assert whole.new[1] == pytest.approx(steepest, rel=1e-12)
+    assert OldTableReport(old, new).data["gain_of_cycle"]["new"] == pytest.approx(list(whole.new))
+    assert [row[0] for row in OldTableReport(old, new).tables[1].rows[-3:]] == ["whole cycle", "", ""]
+
+
+def test_a_cycle_that_is_harder_than_the_old_one_says_so() -> None:
+    """A lift of 0.36 mm over 30 deg in noise, with a corner and blends of few degrees in its place."""
+    x = np.linspace(0.0, 360.0, 721)
+    rise = np.clip((x - 90.0) / 30.0, 0.0, 1.0) - np.clip((x - 250.0) / 30.0, 0.0, 1.0)
+    table = split_table(x, np.round(0.36 * rise + np.random.default_rng(3).normal(0.0, 1e-3, 721), 4), digit=1e-4)
+    assert table.corners == pytest.approx((90.0, 120.0, 250.0, 280.0), abs=0.2)
+    facts = "\n".join(map(str, OldTableReport(table, table.bettered(5e-3)).facts))
+    assert "the greatest jerk of the new cycle is" in facts
+    assert "that of the old one above" in facts

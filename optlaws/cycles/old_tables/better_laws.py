@@ -400,15 +400,16 @@ def _beyond(law: MotionLaw, old: MotionLaw, share: float, farthest: float) -> Ar
 
 def gain(new: Stretch, old: Stretch) -> MoveGain:
     """The gain of a move over the old move in its place."""
-    laws = law_of_move(new), law_of_move(old)
-    size, length = abs(old.stroke), old.stop - old.start
-    after, before = (
-        (B.value * size / length, C.value * size / length**2, J.value * size / length**3)
-        for B, C, J in ((law.constants.B, law.constants.C, law.constants.J) for law in laws)
-    )
-    known = new.solution
+    size, length, known = abs(old.stroke), old.stop - old.start, new.solution
     proof = (known.lower_bound * size / length**2, known.status.value) if known else (nan, "")
-    return MoveGain(old.kind, old.start, old.stop, before, after, size * deviation(*laws), old.peaks, *proof)
+    off = size * deviation(law_of_move(new), law_of_move(old))
+    return MoveGain(old.kind, old.start, old.stop, peaks_of(old), peaks_of(new), off, old.peaks, *proof)
+
+
+def peaks_of(part: Stretch) -> tuple[float, float, float]:
+    """The peaks of velocity, acceleration and jerk in a move, by the master; inf where one has no greatest value."""
+    known, size, length = law_of_move(part).constants, abs(part.stroke), part.stop - part.start
+    return known.B.value * size / length, known.C.value * size / length**2, known.J.value * size / length**3
 
 
 def deviation(law: MotionLaw, other: MotionLaw) -> float:

@@ -15,7 +15,7 @@ from optlaws.cycles.old_tables.fitting import DEGREE, SIMPLE, UNRESOLVED, CurveF
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
 from optlaws.cycles.old_tables.rests_and_lines import FEWEST, NOISE_ROOM, Line, lines_of, rests_of
 from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on, variance_about_spline
-from optlaws.cycles.old_tables.standard import Chain, Outline, criterion, spline_of
+from optlaws.cycles.old_tables.standard import JUMP, Chain, Outline, criterion, spline_of
 from optlaws.numbers import Array
 from optlaws.numerics.roots import bisect
 
@@ -42,6 +42,8 @@ _ALONE = 0.5
 _MANY, _MORE_NOISE = 100, 1.5
 #: rows about a corner that show whether it is one, and by how many deviations of their sum they are to one side
 _BESIDE_CORNER, _TO_ONE_SIDE = (4, 32), 4.0
+#: by how much Schwarz's criterion must fall for a corner to be there, and no smooth change
+_EVIDENT = 12.0
 #: standard laws whose sums of squares differ by less are told apart by no table
 _ALIKE = 16.0
 #: of a turn: rests that are shorter are looked at as crests too, or for standard laws alone
@@ -283,13 +285,21 @@ def _begun(samples: Samples, crests: Sequence[float], advance: float) -> tuple[S
         return samples, rests
     # where a motion advances, what looks like a rest may be where it turns
     lines = [*rests, *(lines_of(samples, 0, last) if advance else [])]
-    if lines:
-        longest = max(lines, key=lambda line: line.last - line.first)
-        row = (longest.first + longest.last) // 2
-    else:
+    if not lines:
         row = 0 if advance else int(np.argmin(samples.heights)) % last
+        turn = samples.begun_at(row, advance) if row else samples
+        return turn, rests_in(turn)
+    longest = max(lines, key=lambda line: line.last - line.first)
+    row = (longest.first + longest.last) // 2
     turn = samples.begun_at(row, advance) if row else samples
-    return turn, rests_in(turn)
+    inner = rests_in(turn)
+    if longest not in rests:
+        return turn, inner
+    # of few rows, the halves of a rest are hardly rests each
+    halves = (
+        Line(0, longest.last - row, longest.level), Line(last - row + longest.first, last, longest.level + advance)
+    )  # fmt: skip
+    return turn, [halves[0], *(rest for rest in inner if rest.first > 0 and rest.last < last), halves[1]]
 
 
 class _Region:
@@ -542,15 +552,20 @@ class _Region:
         return bool(abs(self.y[row] - cubic[-1]) > _ALONE * off)
 
     def _is_plain(self, chain: Chain) -> bool:
-        """Whether standard laws leave nothing but noise."""
-        return likely(chain.squares, len(self.x)) and not chain.is_bent
+        """Whether standard laws leave nothing but noise, and corners beside them are evident."""
+        rows = len(self.x)
+        if not likely(chain.squares, rows) or chain.is_bent:
+            return False
+        smooth = self._fits(SIMPLE) if any(change > JUMP for change in chain.changes) else ()
+        least = criterion(chain.squares, chain.free, rows) + _EVIDENT
+        return not smooth or not likely(smooth[0].squares, rows) or smooth[0].criterion(float(np.log(rows))) > least
 
     def _explains(self, chain: Chain, fit: CurveFit) -> bool:
         """Whether rows are as near standard laws as splines make likely, by the test of Fisher or the simpler model."""
         from scipy.special import fdtrc
 
         rows = len(self.x)
-        if chain.is_bent:
+        if any(change > JUMP for change in chain.changes) and not self._is_plain(chain):
             return False
         left, best = max(rows - chain.free, 1), max(rows - fit.free, 1)
         more = fit.free - chain.free

@@ -17,12 +17,13 @@ from optlaws.kept import kept_property
 from optlaws.laws.report import law_panels
 from optlaws.motion.quantities import QUANTITIES
 from optlaws.numbers import bounded
-from optlaws.sentences import sentence
+from optlaws.sentences import Amount, sentence
 from optlaws.shown.report import Panel, ReportSegment, ReportTable, Series
 from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import NO_MARK
 
 _OLD, _NEW, _POINTS = 0, 1, 2  # colours
+_HARDER = 1.3  # times what is known of an old peak, which a new jerk may be above by a fifth
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class OldTableReport:
     def facts(self) -> Summary:
         """What the file is, how near the laws are to its points, and which moves keep their laws."""
         read = Row(f"{self.table.layout}, {len(self.table.places)} points")
-        return Summary([read, *map(Row, [*self.table.remarks, *self.unchanged])])
+        return Summary([read, *map(Row, [*self.table.remarks, *self.unchanged, *self.harder])])
 
     @property
     def unchanged(self) -> Iterator[str]:
@@ -49,6 +50,21 @@ class OldTableReport:
                 yield sentence("the {} from {} keeps its law: {}", part.kind, start, reason)
             elif reason:
                 yield sentence("the {} from {}: {}", part.kind, start, reason)
+
+    @property
+    def harder(self) -> Iterator[str]:
+        """Acceleration and jerk of the whole cycle where they are far above what is known of those of the table."""
+        if self.new is None:
+            return
+        whole = self.new.gain_of_cycle(self.table)
+        for nu in (2, 3):
+            (low, high), new = whole.intervals[nu - 1], whole.new[nu - 1]
+            name, unit = QUANTITIES[nu], self.table.unit_of(nu)
+            if not isfinite(new) or new <= _HARDER * (high if isfinite(high) else low):
+                continue
+            what, was = Amount(new, unit, 3), Amount(high if isfinite(high) else low, unit, 3)
+            known = "at most" if isfinite(high) else "above"
+            yield sentence("the greatest {} of the new cycle is {}, that of the old one {} {}", name, what, known, was)
 
     @kept_property
     def tables(self) -> tuple[ReportTable, ...]:
@@ -68,10 +84,11 @@ class OldTableReport:
         return (stretches, ReportTable(gains, new)) if new else (stretches,)
 
     def _gains(self) -> list[list[Any]]:
-        rows = []
-        for each in () if self.new is None else self.new.gains(self.table):
-            if each.deviation == 0.0:
-                continue
+        if self.new is None:
+            return []
+        rows, whole = [], self.new.gain_of_cycle(self.table)
+        changed = [each for each in self.new.gains(self.table) if each.deviation]
+        for each in [*changed, whole] if changed or any(part.corner is not None for part in self.new.moves) else ():
             for nu in (1, 2, 3):
                 proof = [bounded(each.lower_bound), each.status] if nu == 2 else [None, ""]
                 peaks = [each.old[nu - 1], each.new[nu - 1], *proof, self.table.unit_of(nu)]
@@ -133,6 +150,7 @@ class OldTableReport:
         facts["outliers"] = [float(old.places[i]) for i in old.outliers]
         if new is None:
             return facts
+        gains = [*new.gains(old), new.gain_of_cycle(old)]
         ends = (
             {
                 "old": list(map(bounded, each.old)),
@@ -141,9 +159,10 @@ class OldTableReport:
                 "lower_bound": bounded(each.lower_bound),
                 "status": each.status or None,
             }
-            for each in new.gains(old)
+            for each in gains
         )
-        return facts | {"gains": [each._asdict() | ends for each, ends in zip(new.gains(old), ends, strict=True)]}
+        *moves, whole = (each._asdict() | end for each, end in zip(gains, ends, strict=True))
+        return facts | {"gains": moves, "gain_of_cycle": whole}
 
 
 def _plain(interval: PeakInterval) -> dict[str, float | None]:

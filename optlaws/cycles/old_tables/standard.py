@@ -296,7 +296,9 @@ class Outline:
         single = replace(some, places=ends, heights=heights, known=np.ones(2, dtype=bool), turn=0.0, slopes=slopes)
         wide = 0.4 * float(np.ptp(ends))
         single = replace(single, bounds=(ends[0] - wide, ends[1] + wide))
-        costs = [(single.fitted((name,), _interpolated, _ROUGH_STEPS).squares, name) for name in catalogue]
+        # beside a line another one is no move, but would be two corners in place of a smooth change
+        names = [name for name in catalogue if name != "constant velocity" or not any(slopes)]
+        costs = [(single.fitted((name,), _interpolated, _ROUGH_STEPS).squares, name) for name in names]
         return [name for _, name in sorted(costs)]
 
     def _freedom(self, names: Sequence[str]) -> tuple[NDArray[np.intp], Array]:

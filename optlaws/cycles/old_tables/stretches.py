@@ -131,7 +131,7 @@ def _between(
 ) -> Stretch:
     """A dwell, or what runs at constant velocity and rises or falls by more than the least, maybe beside a corner."""
     if abs(high - low) <= least:
-        return Stretch("dwell", start, stop, low, high)
+        return Stretch("dwell", start, stop, low, low)
     slope = abs((high - low) / (stop - start))
     most = inf if corner else 0.0
     x, noise = motion.samples.places, motion.samples.noise

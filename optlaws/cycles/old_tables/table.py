@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.old_tables.better_laws import MoveGain, bettered, gain, without_corners
+from optlaws.cycles.old_tables.better_laws import MoveGain, bettered, gain, peaks_of, without_corners
 from optlaws.cycles.old_tables.frame import (
     begun,
     closed,
@@ -231,6 +231,27 @@ class OldTable:
         if places[0] != places[1]:
             raise InputError("gains need two tables with the same moves, one computed from the other")
         return tuple(map(gain, new, was))
+
+    def gain_of_cycle(self, old: OldTable) -> MoveGain:
+        """The gain of the whole cycle over that of an older table, whose corners have no greatest acceleration.
+
+        Its deviation is the greatest one of `gains`, beside corners that are taken away.
+
+        Examples
+        --------
+        >>> x = np.arange(0.0, 361.0, 5.0)
+        >>> old = split_table(x, np.clip(x, 30.0, 100.0) - np.clip(0.5 * x, 80.0, 150.0))
+        >>> [round(number, 4) for number in old.bettered(1.0).gain_of_cycle(old).new]
+        [0.5, 0.0312, 0.0312]
+        """
+        was, new = (tuple(max(order) for order in zip(*map(peaks_of, each.moves), strict=True)) for each in (old, self))
+        if old.corners:
+            was = was[0], inf, inf
+        if self.corners:
+            new = new[0], inf, inf
+        deviation = max((each.deviation for each in self.gains(old)), default=0.0)
+        first, last = old.stretches[0], old.stretches[-1]
+        return MoveGain("whole cycle", first.start, last.stop, was, new, deviation, old.peaks)
 
     def plot(self, ax: Any = None, *, new: OldTable | None = None, **style: Any) -> list[Any]:
         """Draw the points and the laws over the master: positions, velocity, acceleration, jerk; return the artists.
