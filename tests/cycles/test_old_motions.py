@@ -423,6 +423,16 @@ def test_a_motion_without_rest_begins_where_it_turns_and_not_at_its_lowest_row()
     assert cycle.duration == pytest.approx(0.3)
 
 
+@pytest.mark.parametrize("seed", [119, 0, 1, 2, 3])
+def test_harmonics_that_turn_before_or_behind_their_lowest_row_move(seed: int) -> None:
+    t, noise = np.radians(np.arange(360.0)), np.random.default_rng(seed).normal(0.0, 0.002, 360)
+    table = split_table(np.arange(360.0), np.round(12.0 * np.sin(t + 0.4) + 3.0 * np.sin(2.0 * t + 1.0) + noise, 3))
+    assert [part.kind for part in table.stretches] == ["rise", "return", "rise"]
+    assert table.peaks[1].holds(
+        float(np.radians(1.0) ** 2 * np.abs(12.0 * np.sin(t + 0.4) + 12.0 * np.sin(2.0 * t + 1.0)).max())
+    )
+
+
 def test_a_jump_of_the_jerk_at_a_steep_place_is_no_corner() -> None:
     """A line that ends smoothly in a crest, behind which a stroke of 116 mm begins: 2 um of noise hide nothing."""
     x = np.linspace(0.0, 360.0, 721)

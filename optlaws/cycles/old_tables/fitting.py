@@ -539,7 +539,7 @@ def fits_of(
     joints: tuple[Joint, ...] = ()
     if smooth is None and not few:
         joints, fits = rough.jointed(fits)
-        if not explaining:
+        if not likely(rough.best(explaining).squares if few else np.inf, rough.rows):
             rough, joints, fits = rough.with_corners(joints, fits)
             fitter = replace(fitter, corners=rough.fitter.corners, ends=rough.fitter.ends)
     best = rough.best(fits)

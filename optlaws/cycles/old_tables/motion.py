@@ -660,7 +660,9 @@ class _Region:
         at = _turn(fits[0].begun_at(places[1], 0.0), places[-1])
         near = min((self.seam - turn, self.seam), key=lambda seam: abs(seam - at))
         at = near if abs(near - at) < SHORTEST * turn else at
-        return [fit.begun_at(at if at < fit.stop else at - turn, 0.0) for fit in fits]
+        if at >= places[-1]:
+            return [fit.begun_at(at - turn, 0.0) for fit in fits]
+        return [fit.begun_at(at, 0.0).moved(-turn, 0.0) for fit in fits]
 
     def _seam_within(self, low: float, high: float) -> float | None:
         """Where the table begins again within a move; None where it does not."""
