@@ -1,1 +1,1 @@
-"""Functions of one variable and numbers: series, roots, enclosures by intervals and Taylor jets. Knows no law."""
+"""Functions of one variable, numbers and programs of cones: series, roots, enclosures. Knows no law."""

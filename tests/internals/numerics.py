@@ -5,6 +5,7 @@ from optlaws.numerics.bernstein import greatest_difference
 from optlaws.numerics.branch_and_bound import extremes as extremes_of_branch_and_bound
 from optlaws.numerics.branch_and_bound import integral as integral_of_integral
 from optlaws.numerics.chebyshev import nodes
+from optlaws.numerics.cones import conic_optimum
 from optlaws.numerics.exact import chebyshev_from_powers, powers_from_chebyshev
 from optlaws.numerics.interval import Interval, bearing, between, dot, exact
 from optlaws.numerics.panels import Panels, of_waves, resolved

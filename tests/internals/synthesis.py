@@ -38,7 +38,7 @@ from optlaws.synthesis.limits.rounding import not_above, root_rounded_down, roun
 from optlaws.synthesis.method import exchange, few_families, starts
 from optlaws.synthesis.method.discretised import ipopt, linear, quadratic_steps
 from optlaws.synthesis.method.discretised.answer import Answer
-from optlaws.synthesis.method.discretised.conic import conic_optimum, optimum_on_points
+from optlaws.synthesis.method.discretised.conic import optimum_on_points
 from optlaws.synthesis.method.discretised.expressions import KINDS, RowShape
 from optlaws.synthesis.method.discretised.grids import first_points
 from optlaws.synthesis.method.discretised.linear import vertex_on_points

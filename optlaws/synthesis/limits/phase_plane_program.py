@@ -22,12 +22,14 @@ from numpy.typing import NDArray
 from optlaws.errors import SolverFailure
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
+from optlaws.numerics.cones import conic_optimum, usable
 from optlaws.synthesis.limits.motions.elements import Elements
 from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_torque import AnyTorque, GearTorque, PhaseTorque
 from optlaws.tolerances import SMALLEST_SIZE
 
+_PHASE_SOLVER = 1e-8  # what the solver of cones is told to leave of gap and feasibility
 _PHASE_ACTIVE = 1e-4  # of a bound: places of a conic program so near to it have it active
 _SMALLEST_ELEMENT = 1e-7  # of the move: elements of a potential are not cut further
 _PHASE_TIGHT = 1e-7  # of a bound: by so much narrower is what the motion of a limit keeps to
@@ -208,19 +210,17 @@ class _Program:
         rows, columns, values = (np.concatenate(several) for several in zip(*self.entries, strict=True))
         matrix = csc_matrix((values, (rows, columns)), shape=(self.height, self.width))
         unit = float(np.abs(self.costs).max() / self.weights.max()) or 1.0
-        settings = clarabel.DefaultSettings()
-        settings.verbose = False
-        nothing, right = csc_matrix((self.width, self.width)), np.concatenate(self.right)
+        right = np.concatenate(self.right)
         tests = self.count + 1 + len(self.jumps)
         smooth = self._smooth_tests(tests)
         if len(self.jumps):
             matrix, right = vstack([smooth.T @ matrix[:tests], matrix[tests:]], format="csc"), right[len(self.jumps) :]
             self.cones[0] = clarabel.ZeroConeT(self.count + 1)
-        result = clarabel.DefaultSolver(nothing, self.costs / unit, matrix, right, self.cones, settings).solve()
+        result = conic_optimum(None, self.costs / unit, matrix, right, self.cones, tolerance=_PHASE_SOLVER)
         x, z = np.array(result.x), np.array(result.z)
         # where it stopped early what it has is no optimum, but a motion and a potential that are checked without it
         stopped = str(result.status) in _STOPPED and np.isfinite(x).all() and np.isfinite(z).all()
-        if str(result.status) not in {"Solved", "AlmostSolved"} and not stopped:
+        if not (usable(result) or stopped):
             raise SolverFailure(f"no motion in the phase plane was found within the bounds: {result.status}")
         places = self._tests(np.arange(len(self.edges) - 1))
         weight = unit * float(z[self.count + 1]) + self.pace if self.plane.kind != "time" else 1.0

@@ -15,6 +15,7 @@ from typing import Literal, TypeAlias, get_args
 import numpy as np
 
 from optlaws.numbers import Array
+from optlaws.numerics.cones import INFEASIBLE, SOLVED
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.energy import EnergyFamily
@@ -22,7 +23,7 @@ from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Po
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.method.contacts import polished
 from optlaws.synthesis.method.discretised.answer import Answer
-from optlaws.synthesis.method.discretised.conic import INFEASIBLE, SOLVED, of_cones, optimum_on_points
+from optlaws.synthesis.method.discretised.conic import of_cones, optimum_on_points
 from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.few_families import binding_few

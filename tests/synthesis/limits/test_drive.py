@@ -206,6 +206,12 @@ def test_no_standard_law_beats_the_limit(
     assert limit.value <= own * (1.0 + 1e-6) + 1e-9
 
 
+@pytest.mark.parametrize(("B", "C"), [(2.0, 5.78), (1.875, 5.774)])
+def test_a_limit_that_the_solver_of_cones_leaves_inaccurate_is_solved_again(B: float, C: float) -> None:
+    torque = drive_torque(inertia="1 + 0.5*a^2", friction="1.0", load="4*a")
+    assert drive_limit(torque, "peak torque", B=B, C=C).gap < 1e-6
+
+
 @pytest.mark.sample(3)
 @pytest.mark.parametrize("minimise", ["peak torque", "rms torque", "energy"])
 @pytest.mark.parametrize("unit", [1e-12, 1e-5, 1e9])

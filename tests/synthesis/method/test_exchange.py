@@ -18,12 +18,12 @@ from optlaws import (
     residual_vibration,
     synthesize,
 )
+from tests.internals.numerics import conic_optimum
 from tests.internals.synthesis import (
     ActiveSet,
     Answer,
     Points,
     Program,
-    conic_optimum,
     exchange,
     first_points,
     model_of,
@@ -124,7 +124,7 @@ def test_of_thousands_of_rows_few_are_given_to_the_solver_of_a_quadratic_step(mo
     honest = conic_optimum
 
     def counted(curvature: Any, cost: Any, rows: Any, *others: Any, **options: Any) -> Any:
-        given.append(len(rows))
+        given.append(rows.shape[0])
         return honest(curvature, cost, rows, *others, **options)
 
     monkeypatch.setattr(quadratic_steps, "conic_optimum", counted)

@@ -5,7 +5,8 @@ from unittest.mock import Mock
 import pytest
 
 from optlaws import Basis, BSplines, Chebyshev, InfeasibleProblem, Pieces, Problem, at_most, rms, synthesize
-from tests.internals.synthesis import conic_optimum, evaluate
+from tests.internals.numerics import conic_optimum
+from tests.internals.synthesis import evaluate
 from tests.sampling import sampled
 
 UNSYMMETRIC = [Chebyshev(5), Pieces(8, 5, 3), BSplines(4, 4, 3)]

@@ -6,11 +6,12 @@ Its answer is good to some 1e-11 in the objective and in every row, and it uses 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from optlaws.numbers import Array
+from optlaws.numerics.cones import SparseColumns, conic_optimum, usable
 from optlaws.synthesis.families.cone import ConeFamily, SumOfSquares
 from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, Program
@@ -18,11 +19,6 @@ from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.tolerances import EMPTY_ROW
 
 _CONIC_SOLVER = 1e-12  # what a solver of cones is told to leave of gap and feasibility
-
-SOLVED = "Solved"
-_USABLE = (SOLVED, "AlmostSolved")
-INFEASIBLE = "PrimalInfeasible"
-_ENDED = (SOLVED, INFEASIBLE, "DualInfeasible")
 
 
 def of_cones(family: ConstraintFamily) -> bool:
@@ -75,11 +71,11 @@ def optimum_on_points(program: Program, points: list[Points]) -> Answer:
     matrix = np.vstack([equations, *(block.rows for block in blocks)])
     right = np.concatenate([given, *(block.right for block in blocks)])
     cones = [clarabel.ZeroConeT(len(scale)), *(cone for block in blocks for cone in block.cones)]
-    straight = np.zeros((program.size, program.size))
     # its size is none of the optimum's
     size = float(np.linalg.norm(program.objective)) or 1.0
     cost = program.objective / size
-    optimum = conic_optimum(straight, cost, matrix, right, cones, tolerance=_CONIC_SOLVER, alike=True)
+    columns = SparseColumns.of(matrix)
+    optimum = conic_optimum(None, cost, columns, right, cones, tolerance=_CONIC_SOLVER, alike=True)
     if not usable(optimum):
         return Answer.missing(program, points, str(optimum.status), optimum.iterations)
     ends = np.cumsum([len(scale), *(len(block.right) for block in blocks)])[:-1]
@@ -87,67 +83,6 @@ def optimum_on_points(program: Program, points: list[Points]) -> Answer:
     weights = [block.weights(dual) for block, dual in zip(blocks, duals, strict=True)]
     x, status = _on_equations(program, np.asarray(optimum.x)), str(optimum.status)
     return Answer(x, [*weights, pulls * scale], success=True, status=status, iterations=optimum.iterations)
-
-
-class SparseColumns(NamedTuple):
-    """A matrix by its columns without their zeros: what Clarabel reads of a csc_matrix, without importing scipy.
-
-    >>> SparseColumns.of(np.array([[2.0, 0.0], [0.5, 1.0]]))[:3]
-    ([2.0, 0.5, 1.0], [0, 1, 1], [0, 2, 3])
-    """
-
-    data: list[float]
-    indices: list[int]
-    indptr: list[int]
-    shape: tuple[int, int]
-    nnz: int
-    has_canonical_format: bool = True  #: no place twice, and the rows of each column in their order
-
-    @classmethod
-    def of(cls, matrix: Array) -> SparseColumns:
-        """The columns of an array."""
-        columns, rows = matrix.T.nonzero()
-        starts = np.searchsorted(columns, np.arange(matrix.shape[1] + 1)).tolist()
-        return cls(matrix[rows, columns].tolist(), rows.tolist(), starts, matrix.shape, len(rows))
-
-
-def conic_optimum(
-    curvature: Array, cost: Array, rows: Array, right: Array, cones: list[Any], *, tolerance: float, alike: bool
-) -> Any:
-    """The least x . curvature . x / 2 + cost . x with right - rows . x in cones, by Clarabel.
-
-    Rows that are `alike` are not scaled again: those of short pieces would end far from the accuracy that is set.
-    Where rows are nearly dependent Clarabel ends as far from it for what it adds to the diagonal of its systems: an
-    answer that is short of the accuracy is computed without that too, and the better one is taken.
-    """
-    import clarabel
-
-    settings = clarabel.DefaultSettings()
-    settings.verbose = False
-    settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
-    settings.tol_infeas_abs = settings.tol_infeas_rel = tolerance
-    sparse_curvature, sparse_rows = SparseColumns.of(np.triu(curvature)), SparseColumns.of(rows)
-    settings.equilibrate_enable = not alike
-    answers = []
-    for settings.static_regularization_enable in (True, False):
-        answers.append(clarabel.DefaultSolver(sparse_curvature, cost, sparse_rows, right, cones, settings).solve())
-        if str(answers[-1].status) in _ENDED:
-            return answers[-1]
-    return min(answers, key=_error)
-
-
-def _error(optimum: Any) -> float:
-    """What an answer of Clarabel leaves of feasibility and, as a share of the cost, of the gap."""
-    if not usable(optimum):
-        return np.inf
-    gap = abs(optimum.obj_val - optimum.obj_val_dual)
-    share = gap / max(1.0, min(abs(optimum.obj_val), abs(optimum.obj_val_dual)))
-    return float(max(optimum.r_prim, optimum.r_dual, share))
-
-
-def usable(optimum: Any) -> bool:
-    """Whether Clarabel found an optimum, to its accuracy or nearly so."""
-    return str(optimum.status) in _USABLE
 
 
 def _block(family: ConstraintFamily, points: Points) -> _Block:

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
+from optlaws.numerics.cones import INFEASIBLE, SparseColumns, conic_optimum, usable
 from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.method.discretised.answer import QUADRATIC, Answer
-from optlaws.synthesis.method.discretised.conic import INFEASIBLE, conic_optimum, usable
 from optlaws.tolerances import EMPTY_ROW, STEP_SETTLED
 
 _STEP_PAYS = 1e-4  # of what a quadratic step promises: the share that it must hold
@@ -261,9 +261,9 @@ class _Descent:
         chosen &= finite
         while True:
             cones = [clarabel.ZeroConeT(len(program.right)), clarabel.NonnegativeConeT(int(chosen.sum()) + 1)]
-            matrix = np.vstack([equations, inner[chosen], spare])
+            matrix = SparseColumns.of(np.vstack([equations, inner[chosen], spare]))
             right = np.concatenate([np.zeros(len(program.right)), below[chosen], [0.0]])
-            optimum = conic_optimum(curvature, cost, matrix, right, cones, tolerance=_QUADRATIC_SOLVER, alike=False)
+            optimum = conic_optimum(curvature, cost, matrix, right, cones, tolerance=_QUADRATIC_SOLVER)
             if not usable(optimum):
                 return None
             over = np.where(chosen, -np.inf, inner @ np.asarray(optimum.x) - below)
