@@ -33,6 +33,8 @@ _COARSE = (1, 2, 4)
 #: a smoother joint is preferred if it lowers the sum of squares by so much of what the best one does
 _AS_GOOD = 0.8
 _MOST_JOINTS = 8
+#: of the greatest velocity: what is slower may turn by chance
+_SLOW = 0.01
 #: pieces from which on corners are looked for where a spline begins and ends
 _CORNERED = 8
 #: of the greatest velocity, and in standard deviations: by so much it changes at a corner
@@ -539,9 +541,8 @@ def fits_of(
     joints: tuple[Joint, ...] = ()
     if smooth is None and not few:
         joints, fits = rough.jointed(fits)
-        if not likely(rough.best(explaining).squares if few else np.inf, rough.rows):
-            rough, joints, fits = rough.with_corners(joints, fits)
-            fitter = replace(fitter, corners=rough.fitter.corners, ends=rough.fitter.ends)
+        rough, joints, fits = rough.with_corners(joints, fits)
+        fitter = replace(fitter, corners=rough.fitter.corners, ends=rough.fitter.ends)
     best = rough.best(fits)
     if explaining and rough.criterion(rough.best(plain)) < rough.criterion(best):
         refined = [_refined(fitter, fit) for fit in rough.accepted(polynomials)]
@@ -702,7 +703,8 @@ class _Search:
         """Joints, as smooth as may be, and fits with these, as long as they make the rows far likelier."""
         joints: tuple[Joint, ...] = ()
         while len(joints) < _MOST_JOINTS and self.best(fits).pieces > _SIMPLE:
-            families = [each for pieces in _COARSE if (each := self.joined(fits, joints, pieces))]
+            tried = [self.joined(fits, joints, pieces) for pieces in _COARSE]
+            families = [each for each in (*tried, self.joined_where_it_turns(fits, joints)) if each]
             if not families:
                 break
             more, family = min(families, key=lambda each: self.criterion(self.best(each[1])))
@@ -732,10 +734,27 @@ class _Search:
         """Fits with a joint more, which a model of so many pieces shows; None where it shows none."""
         base = next((fit for fit in fits if fit.pieces == pieces), None)
         joint = None if base is None else self.fitter.joint(base.start, base.stop, joints, pieces)
-        if base is None or joint is None:
+        return None if base is None or joint is None else self._with(base, (*joints, joint))
+
+    def joined_where_it_turns(
+        self, fits: Sequence[CurveFit], joints: tuple[Joint, ...]
+    ) -> tuple[tuple[Joint, ...], list[CurveFit]] | None:
+        """Fits with a joint where they turn, as two laws often meet; None where they do not turn once alone."""
+        best = self.best(fits)
+        at = np.linspace(best.start, best.stop, 2 * _CANDIDATES + 1)
+        velocity = best.values(at, 1)
+        fast = np.abs(velocity) > _SLOW * np.abs(velocity).max()
+        signs = np.sign(velocity[fast])
+        turns = at[fast][np.flatnonzero(signs[:-1] != signs[1:])]
+        near = 2.0 * float(np.median(np.diff(self.fitter.x)))
+        if len(turns) != 1 or any(abs(joint.place - turns[0]) < near for joint in joints):
             return None
+        return self._with(best, (*joints, Joint(float(turns[0]), 2)))
+
+    def _with(self, base: CurveFit, joints: tuple[Joint, ...]) -> tuple[tuple[Joint, ...], list[CurveFit]] | None:
+        """Fits with joints about given places, whose ends are near those of another fit; None where there are none."""
         at = base.start, base.stop
-        placed = self.fitter.placed(at, sorted([*joints, joint]), pieces)
+        placed = self.fitter.placed(at, sorted(joints), base.pieces)
         more = tuple(joint for joint in placed if at[0] < joint.place < at[1])
         family = self.climbed(more, at, 2.0 * float(np.median(np.diff(self.fitter.x))))
         return (more, family) if family else None

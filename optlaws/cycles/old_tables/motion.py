@@ -36,6 +36,8 @@ _MISSING = 1.5
 _AT_ODDS = 1.02
 #: rows farther off a standard law, in standard deviations, are far off it, if they are few of all
 _FAR, _FEW = 6.0, 0.04
+#: standard deviations of most rows about a spline that is no model of these
+_NO_MODEL = 2.0
 #: of a row far off a spline, by which those beside it may be off
 _ALONE = 0.5
 #: rows from which on a spline shows the noise; and variance over that by differences that may be noise and no motion
@@ -531,9 +533,10 @@ class _Region:
         """Leave out single rows far off a spline, whose neighbours are near it; whether there are such."""
         inside = np.flatnonzero((self.x > fit.start) & (self.x < fit.stop))
         off = np.abs(fit.values(self.x[inside]) - self.y[inside]) / self.noise[inside]
-        if len(off) < 2 * fit.free:
+        size = max(float(np.median(off)) / MEDIAN, 1.0) if len(off) else np.inf
+        if len(off) < 2 * fit.free or size > _NO_MODEL:
             return False
-        off = np.pad(off / max(float(np.median(off)) / MEDIAN, 1.0), 1)
+        off = np.pad(off / size, 1)
         beside = np.maximum(off[:-2], off[2:])
         far = inside[(off[1:-1] > _FAR) & (beside < _ALONE * off[1:-1])]
         far = far[[self._stands_out(int(row), abs(self.y[row] - fit.height(self.x[row]))) for row in far]]
