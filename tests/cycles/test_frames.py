@@ -155,3 +155,12 @@ def test_positions_go_on_where_their_encoder_begins_again() -> None:
     assert table.seam == pytest.approx(1080.0, abs=2.0)
     indexing = 3.0 * law(np.clip((x - 40.0) / 200.0, 0, 1))
     assert split_table(x[::60], indexing[::60], unit="turn").heights[-1] == 3.0
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_noisy_turn_whose_last_row_is_missing_is_whole(seed: int) -> None:
+    x, law = np.arange(720.0) / 2.0, catalogue["modified sine"].law
+    lift = 2.0 * (law(np.clip((x - 30.0) / 100.0, 0.0, 1.0)) - law(np.clip((x - 190.0) / 90.0, 0.0, 1.0)))
+    table = split_table(x, np.round(lift + np.random.default_rng(seed).normal(0.0, 0.01, 720), 3), digit=1e-3)
+    assert table.stretches[-1].stop == 360.0
+    assert table.cycle(speed="60 rpm").duration == 1.0

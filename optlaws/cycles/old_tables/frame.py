@@ -14,6 +14,7 @@ from optlaws.numbers import Array, NumberOrQuantity, Quantity, whole
 _TURN = 360.0  # deg of the master of a cycle in a turn
 _TURNS = {"deg": _TURN, "rad": 2.0 * np.pi, "turn": 1.0, "rev": 1.0}
 _NEAR = 1e-3  # of the positions: by how much more the last one may be off the first one than steps beside it are
+_BESIDE = 4  # steps beside each end, by some of which noise is seen
 _MOST_LOBES = 100
 _LONG_STEP = 5  # times the median step: a longer one between equal positions is a rest
 _STEP_OF_TURN = 0.25  # a position that goes on over the end of its turn makes no longer step
@@ -176,7 +177,8 @@ def with_rests(places: Array, heights: Array) -> tuple[Array, Array, NDArray[np.
 
 def beside_ends(heights: Array) -> float:
     """By how much the last position may be off the first one for both to be one."""
-    return float(2.0 * np.abs(np.diff(heights)[[0, -1]]).max() + _NEAR * np.ptp(heights))
+    steps = np.abs(np.diff(heights))
+    return float(2.0 * max(steps[:_BESIDE].max(), steps[-_BESIDE:].max()) + _NEAR * np.ptp(heights))
 
 
 def whole_turn(turn: float | None, master: str) -> float | None:

@@ -14,7 +14,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from optlaws.cycles.old_tables.fitting import DEGREE, SIMPLE, UNRESOLVED, CurveFit, End, fits_of, interpolation, likely
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
 from optlaws.cycles.old_tables.rests_and_lines import FEWEST, NOISE_ROOM, Line, lines_of, rests_of
-from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on, variance_about_spline
+from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on, off_both_sides, variance_about_spline
 from optlaws.cycles.old_tables.standard import JUMP, Chain, Outline, criterion, spline_of
 from optlaws.numbers import Array
 from optlaws.numerics.roots import bisect
@@ -38,6 +38,8 @@ _AT_ODDS = 1.02
 _FAR, _FEW = 6.0, 0.04
 #: standard deviations of most rows about a spline that is no model of these
 _NO_MODEL = 2.0
+#: rows that are looked at beside one, at least
+_FEWEST_BESIDE = 4
 #: of a row far off a spline, by which those beside it may be off
 _ALONE = 0.5
 #: rows from which on a spline shows the noise; and variance over that by differences that may be noise and no motion
@@ -539,7 +541,7 @@ class _Region:
         off = np.pad(off / size, 1)
         beside = np.maximum(off[:-2], off[2:])
         far = inside[(off[1:-1] > _FAR) & (beside < _ALONE * off[1:-1])]
-        far = far[[self._stands_out(int(row), abs(self.y[row] - fit.height(self.x[row]))) for row in far]]
+        far = far[[self._stands_out(int(row), self.y[row] - fit.height(self.x[row])) for row in far]]
         if not far.size or len(self.far) + len(far) > _FEW * len(self.x) + 1:
             return False
         self.far += self.x[far].tolist()
@@ -547,12 +549,11 @@ class _Region:
         return True
 
     def _stands_out(self, row: int, off: float) -> bool:
-        """Whether a row is off the cubic of those beside it as well, by most of what it is off a spline."""
-        beside = np.array([row - 2, row - 1, row + 1, row + 2])
-        if beside[0] < 0 or beside[-1] >= len(self.x):
+        """Whether a row is off where both sides of it go on, by most of what it is off a spline."""
+        if not _FEWEST_BESIDE <= row < len(self.x) - _FEWEST_BESIDE:
             return True
-        cubic = np.polyfit(self.x[beside] - self.x[row], self.y[beside], 3)
-        return bool(abs(self.y[row] - cubic[-1]) > _ALONE * off)
+        both = off_both_sides(self.x, self.y, row, float(np.sign(off)), float(self.noise[row]))
+        return both > _ALONE * abs(off)
 
     def _is_plain(self, chain: Chain) -> bool:
         """Whether standard laws leave nothing but noise, and corners beside them are evident."""

@@ -56,6 +56,8 @@ class OldTableReport:
         """Acceleration and jerk of the whole cycle where they are far above what is known of those of the table."""
         if self.new is None:
             return
+        if any(None in row[9:12] for row in self._gains()):
+            yield sentence("a change that is empty cannot be known from this table")
         whole = self.new.gain_of_cycle(self.table)
         for nu in (2, 3):
             (low, high), new = whole.intervals[nu - 1], whole.new[nu - 1]

@@ -349,14 +349,7 @@ def _far_points(places: Array, heights: Array, noise: float) -> Mask:
         if outside[worst] <= _SUSPECT * least:
             break
         seen[worst] = True
-        # at a joint or a corner a point is where one side goes on; one that is far off is so for both sides
-        sign, rest = np.sign(filtered[worst]), y - sizes
-        off = 0.0
-        for degree in _DEGREES_BESIDE:
-            sides = [_beyond(x[rows], rest[rows], x[worst], degree) for rows in _beside(worst, 2 * degree + 1)]
-            off = min(sign * (rest[worst] - end) for end, *_ in sides)
-            if max(left for _, left, _ in sides) <= (_FITTING * noise) ** 2:
-                break
+        off = off_both_sides(x, y - sizes, worst, float(np.sign(filtered[worst])), noise)
         if off > _BOTH * outside[worst]:
             taken.append(worst)
             # what it hid beside it is seen now
@@ -370,6 +363,20 @@ def _far_points(places: Array, heights: Array, noise: float) -> Mask:
     far = np.zeros(count, dtype=bool)
     far[[(row - beside) % (count - 1) for row in taken]] = True
     return far
+
+
+def off_both_sides(places: Array, heights: Array, row: int, sign: float, noise: float) -> float:
+    """By how much a point is above where both sides of it go on, or below with the sign -1.
+
+    At a joint or a corner a point is where one side goes on; one that is far off is so for both sides.
+    """
+    off = 0.0
+    for degree in _DEGREES_BESIDE:
+        sides = [_beyond(places[rows], heights[rows], places[row], degree) for rows in _beside(row, 2 * degree + 1)]
+        off = min(sign * (heights[row] - end) for end, *_ in sides)
+        if max(left for _, left, _ in sides) <= (_FITTING * noise) ** 2:
+            break
+    return off
 
 
 def _differences(weights: Array, values: Array) -> Array:
