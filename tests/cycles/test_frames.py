@@ -164,3 +164,16 @@ def test_a_noisy_turn_whose_last_row_is_missing_is_whole(seed: int) -> None:
     table = split_table(x, np.round(lift + np.random.default_rng(seed).normal(0.0, 0.01, 720), 3), digit=1e-3)
     assert table.stretches[-1].stop == 360.0
     assert table.cycle(speed="60 rpm").duration == 1.0
+
+
+def test_rows_that_are_missing_in_a_move_are_named_and_bound_no_peak() -> None:
+    x, law = np.linspace(0.0, 360.0, 721), catalogue["modified sine"].law
+    lift = 20.0 * (law(np.clip((x - 30.0) / 100.0, 0.0, 1.0)) ** 2 - law(np.clip((x - 190.0) / 90.0, 0.0, 1.0)))
+    left = (x <= 70.0) | (x >= 100.0)
+    y = np.round(lift + np.random.default_rng(2).normal(0.0, 1e-3, 721), 4)
+    table = split_table(x[left], y[left], digit=1e-4)
+    assert "no points are from 70 to 100 deg: between them is what goes on best" in str(table)
+    rise, back = table.moves
+    assert not rise.peaks[1].is_known
+    assert back.peaks[1].is_known
+    assert "no points" not in str(split_table(x, y, digit=1e-4))

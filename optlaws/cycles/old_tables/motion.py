@@ -14,7 +14,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from optlaws.cycles.old_tables.fitting import DEGREE, SIMPLE, UNRESOLVED, CurveFit, End, fits_of, interpolation, likely
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
 from optlaws.cycles.old_tables.rests_and_lines import FEWEST, NOISE_ROOM, Line, lines_of, rests_of
-from optlaws.cycles.old_tables.samples import MEDIAN, Samples, goes_on, off_both_sides, variance_about_spline
+from optlaws.cycles.old_tables.samples import MEDIAN, Samples, gaps_of, goes_on, off_both_sides, variance_about_spline
 from optlaws.cycles.old_tables.standard import JUMP, Chain, Outline, criterion, spline_of
 from optlaws.numbers import Array
 from optlaws.numerics.roots import bisect
@@ -690,10 +690,18 @@ class _Region:
             bounds = most or [
                 most_peak(fits, nu, low, high) + self._missing(fits[0], nu, low, high) for nu in (1, 2, 3)
             ]
+            if any(start < high and stop > low for start, stop in self._gaps):
+                bounds = [np.inf] * 3
             peaks = [self._interval(nu, low, high, bounds[nu - 1], variance) for nu in (1, 2, 3)]
             slopes, corners = (fits[0].ends[0].slope, fits[0].ends[1].slope), fits[0].corners
             corners = corners[0] and low == nodes[0], corners[1] and high == nodes[-1]
             yield FittedMove(low, high, first, last, tuple(fits), "", nearest, tuple(peaks), slopes, corners)
+
+    @cached_property
+    def _gaps(self) -> list[tuple[float, float]]:
+        """From where to where no rows tell the motion."""
+        x, y, noise = self.samples.places, self.samples.heights, self.samples.noise
+        return gaps_of(x, y, NOISE_ROOM * float(noise.max()) + self.digit)
 
     def _missing(self, fit: CurveFit, nu: int, low: float, high: float) -> float:
         """What the rows show of a derivative that a fit has not: at joints that it smooths."""

@@ -43,6 +43,8 @@ _DEGREE, _ROWS_OF_PIECE = 5, 4
 _NOISY, _FAR_OFF = 0.5, 4.0
 #: of half a window: places in it that are even have no more from where they are
 _EVEN = 1e-11
+#: median steps, and of a turn: between rows that are farther apart some are missing
+_GAP, _GAP_OF_TURN = 5.0, 0.02
 #: decimals that a rounded number has at most
 _DECIMALS = 9
 
@@ -140,6 +142,21 @@ def samples_of(places: Array, heights: Array, digit: float = 0.0) -> Samples:
         if np.array_equal(suspects, before):
             break
     return Samples(x, heights, unit, np.where(rests, least, np.maximum(size, least)), suspects)
+
+
+def gaps_of(places: Array, heights: Array, room: float) -> list[tuple[float, float]]:
+    """From where to where rows are missing between positions that differ by more than a room.
+
+    Examples
+    --------
+    >>> x = np.array([0.0, 1.0, 2.0, 3.0, 40.0, 41.0, 42.0, 100.0])
+    >>> gaps_of(x, np.minimum(x, 42.0), 1e-3)
+    [(3.0, 40.0)]
+    """
+    steps = np.diff(places)
+    missing = (steps > _GAP * np.median(steps)) & (steps > _GAP_OF_TURN * np.ptp(places))
+    rows = np.flatnonzero(missing & (np.abs(np.diff(heights)) > room))
+    return [(float(places[row]), float(places[row + 1])) for row in rows]
 
 
 def even_places(places: Array) -> Array:

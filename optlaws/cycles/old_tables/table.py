@@ -27,7 +27,7 @@ from optlaws.cycles.old_tables.motion import motion_of
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.reading import points_in
 from optlaws.cycles.old_tables.rests_and_lines import NOISE_ROOM
-from optlaws.cycles.old_tables.samples import samples_of
+from optlaws.cycles.old_tables.samples import gaps_of, samples_of
 from optlaws.cycles.old_tables.stated_functions import stretches_of_pieces
 from optlaws.cycles.old_tables.stretches import Stretch, corners_of, law_of_move, position, seam_of, stretches_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, Rise
@@ -242,7 +242,7 @@ class OldTable:
         >>> x = np.arange(0.0, 361.0, 5.0)
         >>> old = split_table(x, np.clip(x, 30.0, 100.0) - np.clip(0.5 * x, 80.0, 150.0))
         >>> [round(number, 4) for number in old.bettered(1.0).gain_of_cycle(old).new]
-        [0.5, 0.0312, 0.0312]
+        [1.0, 0.1406, 0.0527]
         """
         was, new = (tuple(max(order) for order in zip(*map(peaks_of, each.moves), strict=True)) for each in (old, self))
         if old.corners:
@@ -373,6 +373,11 @@ class OldTable:
         if self.outliers:
             far = self._named(self.places[list(self.outliers)].tolist())
             remarks.append(sentence("far off the motion and left out: the points at {}", far))
+        gaps = [f"{start:.6g} to {stop:.6g}" for start, stop in gaps_of(self.places, self.heights, self.room)]
+        if gaps:
+            remarks.append(
+                sentence("no points are from {} {}: between them is what goes on best", joined(", ", gaps), self.master)
+            )
         if self.seam:
             remarks.append(sentence("the last position is {} from the first one", Amount(self.seam, self.unit, 3)))
         return tuple(remarks)
