@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from optlaws.cycles.old_tables.fitting import DEGREE, SIMPLE, CurveFit
+from optlaws.cycles.old_tables.curve_fit import DEGREE, CurveFit
+from optlaws.cycles.old_tables.fitting import SIMPLE
 from optlaws.cycles.old_tables.samples import window_polynomials
 from optlaws.numbers import Array
 

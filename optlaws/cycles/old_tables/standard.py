@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import BPoly, BSpline
 
-from optlaws.cycles.old_tables.fitting import AS_LIKELY, DEGREE, CurveFit, End, Joint, rounded_places
+from optlaws.cycles.old_tables.curve_fit import DEGREE, CurveFit, End, Joint
+from optlaws.cycles.old_tables.fitting import AS_LIKELY, rounded_places
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.numbers import Array
 

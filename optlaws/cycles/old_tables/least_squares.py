@@ -1,0 +1,278 @@
+"""Least squares of splines: their rows, their ends between lines, and where joints lower the sum of squares most."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+from scipy.interpolate import BPoly, BSpline
+
+from optlaws.cycles.old_tables.curve_fit import CANDIDATES, DEGREE, CurveFit, End, Joint, basis
+from optlaws.numbers import Array
+
+#: rows more than coefficients at least: a spline through all of them may be anything between
+_LEFT = 2
+#: rows in searches for joints, which need not be all
+_SEARCHED = 160
+#: a smoother joint is preferred if it lowers the sum of squares by so much of what the best one does
+_AS_GOOD = 0.8
+#: of a step: about a joint it is looked for within less and less
+_WIDTHS = (2.0, 0.5, 0.12, 0.03, 0.008, 0.002)
+#: where the end of a rest is looked for first, from its move on, as shares of where it may be
+_LOOKS = np.array([0.0, *2.0 ** np.arange(-8.0, 1.0)])
+#: of a step: how near the ends of rests are looked for, in the end and in searches
+_FINE, ROUGH = 0.02, 0.2
+#: of a step: ends of rests beside one polynomial are no nearer; and how often they are moved at most
+_EXACT, _ENDS_MOVED = 1e-9, 40
+#: of a sum of squares: what is gained in the last step of a search among degrees
+_AS_NEAR = 1e-4
+
+
+def _nearly_orthogonal(u: Array, contact: int, degree: int) -> Array:
+    """Polynomials with so many zeros at -1 and at 1 whose products at dense places sum up to about 0.
+
+    These are (1 - u^2)^m times Gegenbauer's, of alpha = 2 m + 1/2.
+    """
+    alpha, columns = 2.0 * contact + 0.5, [(1.0 - u * u) ** contact]
+    columns.append(2.0 * alpha * u * columns[0])
+    for n in range(2, degree + 1):
+        ahead = 2.0 * (n + alpha - 1.0) * u * columns[-1] - (n + 2.0 * alpha - 2.0) * columns[-2]
+        columns.append(ahead / n)
+    rows = np.column_stack(columns)
+    return np.asarray(rows / np.sqrt((rows**2).sum(axis=0)))
+
+
+def _condensed(knots: Array, places: Array, heights: Array, weights: Array, degree: int) -> Array:
+    """Few equations for the coefficients of a spline, with right sides, whose squares sum up as those of all rows do.
+
+    The rows of a piece have a column for each of its B-splines and one for the heights: their triangular factor does.
+    """
+    width, count = degree + 1, len(knots) - degree - 1
+    matrix = BSpline.design_matrix(places, knots, degree)
+    firsts, starts, counts = np.unique(matrix.indices[::width], return_index=True, return_counts=True)
+    piece = np.repeat(np.arange(len(firsts)), counts)
+    blocks = np.zeros((len(firsts), max(counts.max(initial=0), width + 1), width + 1))
+    rows = np.column_stack([matrix.data.reshape(-1, width), heights]) * weights[:, None]
+    blocks[piece, np.arange(len(places)) - starts[piece]] = rows
+    factors: Array = np.asarray(np.linalg.qr(blocks, mode="r"))
+    few = np.zeros((len(firsts), width + 1, count + 1))
+    columns = np.column_stack([firsts[:, None] + np.arange(width), np.full(len(firsts), count)])
+    np.put_along_axis(few, np.broadcast_to(columns[:, None, :], factors.shape), factors, axis=2)
+    return few.reshape(-1, count + 1)
+
+
+def _knots(start: float, stop: float, joints: Sequence[Joint], pieces: int, degree: int = DEGREE) -> Array:
+    """Knots of about as many pieces, even between joints."""
+    ends = [start, *(joint.place for joint in joints), stop]
+    inner: list[float] = []
+    for i, (low, high) in enumerate(pairwise(ends)):
+        count = max(1, round(pieces * (high - low) / (stop - start)))
+        inner += np.linspace(low, high, count + 1)[1:-1].tolist()
+        if i < len(joints):
+            inner += [high] * (degree - joints[i].continuity)
+    return np.array([*[start] * (degree + 1), *inner, *[stop] * (degree + 1)])
+
+
+@dataclass(frozen=True, eq=False)
+class LeastSquares:
+    """Fits splines to rows between two ends, or round a turn in which they advance."""
+
+    x: Array
+    y: Array
+    noise: Array
+    ends: tuple[End, End]
+    advance: float | None  #: of the turn
+    continuity: int = 2  #: at the seam of the turn
+    fine: float = _FINE  #: of a step: how near the ends of rests are looked for
+    degree: int = DEGREE
+    contact: int = 2  #: how many derivatives, with the position, are those of a rest or a line where it ends
+    corners: tuple[bool, bool] = (False, False)  #: whether only the position is, where it starts and where it ends
+
+    def thinned(self) -> LeastSquares:
+        """The same with fewer rows, for searches."""
+        some = slice(None, None, max(1, len(self.x) // _SEARCHED))
+        return replace(self, x=self.x[some], y=self.y[some], noise=self.noise[some], fine=ROUGH)
+
+    def solved(
+        self, start: float, stop: float, joints: Sequence[Joint], pieces: int, *, whole: bool = False
+    ) -> tuple[float, int, CurveFit | None]:
+        """The sum of squares, the number of parameters, and with `whole` the fit."""
+        joints = tuple(joint for joint in joints if start < joint.place < stop)
+        knots = _knots(start, stop, joints, pieces, self.degree)
+        inside = (self.x >= start) & (self.x <= stop)
+        outside = 0.0
+        for end, away in ((self.ends[0], self.x < start), (self.ends[1], self.x > stop)):
+            if end.line is not None:
+                outside += float((((self.y[away] - end.value(self.x[away])) / self.noise[away]) ** 2).sum())
+        turned, coefficients = self._known(knots)
+        free = turned.shape[1]
+        parameters = free + len(joints) + sum(end.line is not None for end in self.ends)
+        if int(inside.sum()) < free + _LEFT:
+            return np.inf, parameters, None
+        few = _condensed(knots, self.x[inside], self.y[inside], 1.0 / self.noise[inside], self.degree)
+        left = few[:, -1:] - few[:, :-1] @ coefficients[:, None]
+        r: Array = np.asarray(np.linalg.qr(np.hstack([few[:, :-1] @ turned, left]), mode="r"))
+        size = np.abs(np.diag(r)[:free])
+        if len(r) < free or (free and size.min() <= 1e-10 * size.max()):
+            return np.inf, parameters, None
+        squares = outside + (float(r[free, free]) ** 2 if len(r) > free else 0.0)
+        if not whole:
+            return squares, parameters, None
+        factor = turned @ np.linalg.inv(r[:free, :free])
+        spline = BSpline(knots, coefficients + factor @ r[:free, free], self.degree)
+        if self.advance is not None and self.continuity < 2:
+            joints = (Joint(start, self.continuity), *joints, Joint(stop, self.continuity))
+        first, last = ((Joint(at, 0),) * corner for at, corner in zip((start, stop), self.corners, strict=True))
+        joints = (*first, *joints, *last)
+        return (
+            squares,
+            parameters,
+            CurveFit(spline, factor, joints, squares, parameters, len(self.x), self.ends, pieces, self.contact),
+        )
+
+    def ends_of(
+        self, start: float, stop: float, joints: Sequence[Joint], pieces: int, width: float | None = None
+    ) -> tuple[float, float]:
+        """Where the rests end by the least sum of squares, within a width about a start and a stop."""
+        places = [start, stop]
+        step = float(np.median(np.diff(self.x)))
+        sides = [side for side, end in enumerate(self.ends) if end.line is not None]
+        if width is None:
+            # a coarse look over all of the rests' ends first, the nearer to the move the closer
+            width = 0.0
+            for side in sides:
+                end = self.ends[side]
+                near, far = (end.low, end.high) if side == 1 else (end.high, end.low)
+                tried = near + (far - near) * _LOOKS
+                squares = [self._with(places, side, float(at), joints, pieces) for at in tried]
+                least = int(np.argmin(squares))
+                places[side] = float(tried[least])
+                beside = tried[[max(least - 1, 0), min(least + 1, len(tried) - 1)]]
+                width = max(width, 0.5 * float(np.ptp(beside)))
+        wide = width
+        middle = self.solved(places[0], places[1], joints, pieces)[0]
+        while sides and wide > self.fine * step:
+            moved = False
+            for side in sides:
+                end, at = self.ends[side], places[side]
+                around = [min(max(at + sign * wide, end.low), end.high) for sign in (-1.0, 1.0)]
+                low, high = (self._with(places, side, place, joints, pieces) for place in around)
+                best = min((low, around[0]), (middle, at), (high, around[1]))
+                bent = low - 2.0 * middle + high
+                if best[1] == at and bent > 0.0 and np.isfinite(bent) and around[1] - at == at - around[0]:
+                    place = at + 0.5 * wide * (low - high) / bent
+                    best = min(best, (self._with(places, side, place, joints, pieces), place))
+                else:
+                    moved = moved or best[1] != at
+                middle, places[side] = best
+            wide *= 1.0 if moved else 0.25
+        return places[0], places[1]
+
+    def _with(self, places: Sequence[float], side: int, place: float, joints: Sequence[Joint], pieces: int) -> float:
+        """The sum of squares with one end elsewhere."""
+        start, stop = (place, places[1]) if side == 0 else (places[0], place)
+        return self.solved(start, stop, joints, pieces)[0] if start < stop else np.inf
+
+    def polynomial_ends(self, at: tuple[float, float]) -> tuple[float, float]:
+        """Where the rests beside one polynomial end by the least sum of squares, from places near these on."""
+        from scipy.optimize import least_squares
+
+        low, high = np.array([end.low for end in self.ends]), np.array([end.high for end in self.ends])
+        if not np.all(low < high):
+            return at
+        step = float(np.median(np.diff(self.x)))
+        start, stop = least_squares(
+            self._missed, np.clip(np.array(at), low, high), bounds=(low, high), x_scale=step,
+            ftol=_AS_NEAR if self.fine == ROUGH else None, xtol=_EXACT, gtol=None, max_nfev=_ENDS_MOVED,
+        ).x  # fmt: skip
+        return float(start), float(stop)
+
+    def polynomial_squares(self, at: tuple[float, float]) -> float:
+        """The sum of squares about the best polynomial between two rests that end there."""
+        off = self._missed(np.array(at))
+        return float(off @ off)
+
+    def _missed(self, at: Array) -> Array:
+        """How far the best polynomial between two rests that end there misses each row, in deviations of its noise."""
+        x, (start, stop), (first, last) = self.x, at, self.ends
+        off = np.where(x < start, self.y - first.value(x), self.y - last.value(x)) / self.noise
+        inside = (x >= start) & (x <= stop)
+        known = [[float(end.value(np.array(place))), end.slope, 0.0] for end, place in ((first, start), (last, stop))]
+        between = BPoly.from_derivatives([start, stop], [each[: self.contact] for each in known])(x[inside])
+        u, noise = (2.0 * x[inside] - start - stop) / (stop - start), self.noise[inside]
+        rows = _nearly_orthogonal(u, self.contact, self.degree - 2 * self.contact) / noise[:, None]
+        left = (self.y[inside] - between) / noise
+        off[inside] = left - rows @ np.linalg.lstsq(rows.T @ rows, rows.T @ left, rcond=None)[0]
+        return np.asarray(off)
+
+    def joint(self, start: float, stop: float, joints: Sequence[Joint], pieces: int) -> Joint | None:
+        """The joint that lowers the sum of squares most, the smoothest one of those that do it nearly as much."""
+        knots = _knots(start, stop, joints, pieces)
+        inside = (self.x >= start) & (self.x <= stop)
+        x, weights = self.x[inside], 1.0 / self.noise[inside]
+        rows = basis(knots, x)
+        count = rows.shape[1]
+        turned, coefficients = self._known(knots)
+        if len(x) < count + 2:
+            return None
+        q, _ = np.linalg.qr((rows @ turned) * weights[:, None])
+        left = (self.y[inside] - rows @ coefficients) * weights
+        left = left - q @ (q.T @ left)
+        margin = 2.0 * float(np.median(np.diff(x)))
+        grid = np.linspace(start + margin, stop - margin, CANDIDATES)
+        grid = grid[[all(abs(place - other.place) > margin for other in joints) for place in grid]]
+        if not grid.size:
+            return None
+        candidates: list[tuple[float, Joint]] = []
+        for continuity in (2, 1, 0):
+            places = grid
+            for _ in range(2):
+                columns = np.maximum(x[:, None] - places, 0.0) ** (continuity + 1) * weights[:, None]
+                size = (columns**2).sum(axis=0)
+                columns = columns - q @ (q.T @ columns)
+                rest = (columns**2).sum(axis=0)
+                gains = np.where(rest > 1e-8 * size, (left @ columns) ** 2 / np.maximum(rest, 1e-300), 0.0)
+                at = int(np.argmax(gains))
+                width = (stop - start) / CANDIDATES
+                last = float(gains[at]), Joint(float(places[at]), continuity)
+                places = np.clip(np.linspace(places[at] - width, places[at] + width, 9), grid[0], grid[-1])
+            candidates.append(last)
+        most = max(gain for gain, _ in candidates)
+        return next(joint for gain, joint in candidates if gain >= _AS_GOOD * most)
+
+    def _known(self, knots: Array) -> tuple[Array, Array]:
+        """A matrix and a vector that make all coefficients of a spline out of those that its ends leave free."""
+        count, degree = len(knots) - self.degree - 1, self.degree
+        turned, coefficients = np.eye(count), np.zeros(count)
+        fixed = np.zeros(count, dtype=bool)
+        contacts = [1 if corner else self.contact for corner in self.corners]
+        for end, first, contact in zip(self.ends, (0, count - contacts[1]), contacts, strict=True):
+            if end.line is not None:
+                # the coefficients of a straight line are its positions at the means of knots
+                for i in range(first, first + contact):
+                    fixed[i], coefficients[i] = True, end.value(knots[i + 1 : i + 1 + degree].mean())
+        if self.advance is not None:
+            for nu in range(self.continuity + 1):
+                first, last = (basis(knots, knots[[at]], degree, nu)[0] for at in (0, -1))
+                differs = (first - last) / last[-1 - nu]
+                differs[-1 - nu] = 0.0
+                turned[-1 - nu] = differs @ turned
+                coefficients[-1 - nu] = differs @ coefficients + (self.advance if nu == 0 else 0.0)
+                fixed[-1 - nu] = True
+        return turned[:, ~fixed], coefficients
+
+    def placed(self, fit: tuple[float, float], joints: Sequence[Joint], pieces: int) -> tuple[Joint, ...]:
+        """Joints moved to where the sum of squares is least."""
+        moved = list(joints)
+        step = float(np.median(np.diff(self.x)))
+        for width in _WIDTHS:
+            for i, joint in enumerate(moved):
+                tried = joint.place + width * step * np.linspace(-1.0, 1.0, 7)
+                squares = []
+                for place in tried:
+                    others = sorted([*moved[:i], Joint(float(place), joint.continuity), *moved[i + 1 :]])
+                    squares.append(self.solved(*fit, others, pieces)[0])
+                moved[i] = Joint(float(tried[int(np.argmin(squares))]), joint.continuity)
+        return tuple(sorted(moved))
