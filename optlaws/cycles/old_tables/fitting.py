@@ -225,28 +225,38 @@ class _Search:
         self, joints: tuple[Joint, ...], fits: list[CurveFit]
     ) -> tuple[_Search, tuple[Joint, ...], list[CurveFit]]:
         """The search, joints and fits that leave lines or rests with other velocities where these are far likelier."""
-        best, (before, after) = self.best(fits), self.fitter.ends
-        near, corners = _NEAR_CORNER * float(np.median(np.diff(self.fitter.x))), (bool(before.line), bool(after.line))
-        # the rows of a line end at a corner
-        first, last = max(before.low, before.high - near), min(after.high, after.low + near)
-        at_corners = before._replace(low=first), after._replace(high=last)
+        best, corners = self.best(fits), (bool(self.fitter.ends[0].line), bool(self.fitter.ends[1].line))
         while best.pieces > _CORNERED and self.fitter.advance is None and any(corners):
-            ends = at_corners[0] if corners[0] else before, at_corners[1] if corners[1] else after
-            search = _Search(replace(self.fitter, corners=corners, ends=ends), self.most)
-            middles = [0.5 * (end.low + end.high) for end in ends]
-            at = middles[0] if corners[0] else best.start, middles[1] if corners[1] else best.stop
-            family = search.climbed((), at, 0.0)
+            search, more, family = self._cornered(best, corners)
             if not family or search.criterion(search.best(family)) > self.criterion(best) - _EVIDENT:
                 break
             evident = search.best(family).changes()
             if evident == corners:
-                return search, *search.jointed(family)
+                return search, *search.jointed(family, more)
             corners = corners[0] and evident[0], corners[1] and evident[1]
         return self, joints, fits
 
-    def jointed(self, fits: list[CurveFit]) -> tuple[tuple[Joint, ...], list[CurveFit]]:
-        """Joints, as smooth as may be, and fits with these, as long as they make the rows far likelier."""
-        joints: tuple[Joint, ...] = ()
+    def _cornered(
+        self, best: CurveFit, corners: tuple[bool, bool]
+    ) -> tuple[_Search, tuple[Joint, ...], list[CurveFit]]:
+        """The likeliest fits with corners where the rows of lines end, maybe with a joint where the best fit turns."""
+        (before, after), step = self.fitter.ends, float(np.median(np.diff(self.fitter.x)))
+        first = max(before.low, before.high - _NEAR_CORNER * step) if corners[0] else before.low
+        last = min(after.high, after.low + _NEAR_CORNER * step) if corners[1] else after.high
+        ends = before._replace(low=first), after._replace(high=last)
+        search = _Search(replace(self.fitter, corners=corners, ends=ends), self.most)
+        middles = [0.5 * (end.low + end.high) for end in ends]
+        start, stop = middles[0] if corners[0] else best.start, middles[1] if corners[1] else best.stop
+        tried = []
+        for joints in ((), *((Joint(turn, 2),) for turn in _turns(best))):
+            if family := search.climbed(joints, (start, stop), 0.0):
+                # few pieces do not tell where a corner is
+                at = search.fitter.ends_of(start, stop, joints, search.best(family).pieces, step)
+                tried.append((search, joints, search.climbed(joints, at, 0.0) or family))
+        return min(tried, key=lambda each: search.criterion(search.best(each[2])), default=(search, (), []))
+
+    def jointed(self, fits: list[CurveFit], joints: tuple[Joint, ...] = ()) -> tuple[tuple[Joint, ...], list[CurveFit]]:
+        """Further joints, as smooth as may be, and fits with these, as long as they make the rows far likelier."""
         while len(joints) < _MOST_JOINTS and self.best(fits).pieces > _SIMPLE:
             tried = [self.joined(fits, joints, pieces) for pieces in _COARSE]
             families = [each for each in (*tried, self.joined_where_it_turns(fits, joints)) if each]
@@ -285,16 +295,9 @@ class _Search:
         self, fits: Sequence[CurveFit], joints: tuple[Joint, ...]
     ) -> tuple[tuple[Joint, ...], list[CurveFit]] | None:
         """Fits with a joint where they turn, as two laws often meet; None where they do not turn once alone."""
-        best = self.best(fits)
-        at = np.linspace(best.start, best.stop, 2 * CANDIDATES + 1)
-        velocity = best.values(at, 1)
-        fast = np.abs(velocity) > _SLOW * np.abs(velocity).max()
-        signs = np.sign(velocity[fast])
-        turns = at[fast][np.flatnonzero(signs[:-1] != signs[1:])]
-        near = 2.0 * float(np.median(np.diff(self.fitter.x)))
-        if len(turns) != 1 or any(abs(joint.place - turns[0]) < near for joint in joints):
-            return None
-        return self._with(best, (*joints, Joint(float(turns[0]), 2)))
+        best, near = self.best(fits), 2.0 * float(np.median(np.diff(self.fitter.x)))
+        turns = [turn for turn in _turns(best) if all(abs(joint.place - turn) >= near for joint in joints)]
+        return self._with(best, (*joints, Joint(turns[0], 2))) if turns else None
 
     def _with(self, base: CurveFit, joints: tuple[Joint, ...]) -> tuple[tuple[Joint, ...], list[CurveFit]] | None:
         """Fits with joints about given places, whose ends are near those of another fit; None where there are none."""
@@ -342,3 +345,13 @@ class _Search:
             return []
         place = family.index(self.best(family))
         return list(family[place : place + 1 + _FINER])
+
+
+def _turns(fit: CurveFit) -> list[float]:
+    """About where a fit turns, if it does so once alone."""
+    at = np.linspace(fit.start, fit.stop, 2 * CANDIDATES + 1)
+    velocity = fit.values(at, 1)
+    fast = np.abs(velocity) > _SLOW * np.abs(velocity).max()
+    signs = np.sign(velocity[fast])
+    turns = at[fast][np.flatnonzero(signs[:-1] != signs[1:])].tolist()
+    return turns if len(turns) == 1 else []
