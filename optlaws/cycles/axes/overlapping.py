@@ -37,6 +37,7 @@ from optlaws.laws import MotionLaw
 from optlaws.motion.piece import moves_at, named_law
 from optlaws.numbers import Array
 from optlaws.numerics.roots import bracketed_roots
+from optlaws.sentences import listed
 from optlaws.tolerances import INTERLOCK
 
 _BROKEN_INSTANT = 1e-11  # of a period: by so much an instant may come too early, as programs are solved
@@ -216,12 +217,16 @@ def _of_move(
         law = law or solve(span, search.objective)[0].law
         fixed = _NOTHING if way == "least acceleration" else _given(cycle, i)
         return replace(segment, law=law, least=fixed, most=None if way == "least acceleration" else fixed)
-    limit = word_of(known.binding[0].key, cycle.axis)
+    limits = list(dict.fromkeys(word_of(limit.key, cycle.axis) for limit in known.binding))
     if known.law is None or not known.scale < inf:
-        raise InfeasibleProblem(f"{stretch.where}: its law has no finite {limit}, and so keeps no limit of it")
+        raise InfeasibleProblem(f"{stretch.where}: its law has no finite {limits[0]}, and so keeps no limit of it")
     least = Extent(0.0, known.needed)
     return replace(
-        segment, law=known.law, least=least, most=None if way == "least acceleration" else least, binds=limit
+        segment,
+        law=known.law,
+        least=least,
+        most=None if way == "least acceleration" else least,
+        binds=listed(limits),
     )
 
 

@@ -519,3 +519,21 @@ def test_a_dwell_of_no_time_is_refused_with_what_to_write_of_one_that_only_waits
     up = After("die", "15 mm", of="slide", above="8 mm", way="down")
     waiting = machine(waits, interlocks=[down, up]).fastest()
     assert [segment.label for segment in waiting["slide"].segments][:3] == ["Rise", "Dwell", "Return"]
+
+
+def test_all_limits_that_bind_a_move_are_named() -> None:
+    """More of any of them alone takes less time."""
+
+    def shortest(jerk: float, acceleration: float, velocity: float) -> Any:
+        limits = {"jerk": f"{jerk} m/s^3", "acceleration": f"{acceleration} m/s^2", "velocity": f"{velocity} m/s"}
+        slide = {
+            "segments": [Dwell("40 ms"), Rise("50 mm", "0.3 s"), Dwell("10 ms"), Return("50 mm", "0.3 s"), Dwell()],
+            "limits": limits,
+        }
+        return Axes({"slide": slide}, period="1 s").fastest()
+
+    best = shortest(1500.0, 20.0, 0.8)
+    moves = [name for name in best.binding if "slide" in name and "dwell" not in name]
+    assert [name.partition(" of axis")[0] for name in moves] == ["velocity, acceleration and jerk"] * 2
+    for more in ((1800.0, 20.0, 0.8), (1500.0, 24.0, 0.8), (1500.0, 20.0, 0.96)):
+        assert shortest(*more).objective < best.objective * (1.0 - 1e-3)
