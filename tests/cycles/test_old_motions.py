@@ -515,6 +515,15 @@ def test_an_index_of_four_lobes_has_four_equal_moves_also_at_its_seam() -> None:
         )
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_an_index_of_eight_stops_rests_eight_times(seed: int) -> None:
+    x, law = np.linspace(0.0, 360.0, 1441), catalogue["modified sine"].law
+    exact = sum(25.0 * np.asarray(law(np.clip((x - 45.0 * stop - 15.0) / 30.0, 0.0, 1.0))) for stop in range(8))
+    y = exact + np.random.default_rng(seed).normal(0.0, 5e-3, 1441)
+    table = split_table(x, np.round(y, 3), digit=1e-3)
+    assert [part.law for part in table.stretches] == [None, "modified sine"] * 8
+
+
 def test_a_crest_that_noise_makes_look_like_a_long_rest_is_one() -> None:
     x, law = np.linspace(0.0, 360.0, 3601), catalogue["4-5-6-7 polynomial"].law
     exact = 2.0 * (law(np.clip((x - 60.0) / 86.0, 0.0, 1.0)) - law(np.clip((x - 146.0) / 115.0, 0.0, 1.0)))

@@ -46,6 +46,7 @@ _FREE = 4  # the order up to which derivatives are left free at one end and give
 _BLENDS = Polynomial([0.0, 1.0]), Polynomial([0.0, 0.0, 3.0, -2.0])
 _MOST = 0.25  # of a stroke: tolerances beyond it are none
 _HARDLY_KNOWN = 4.0  # times the least that an old peak may be: where it may be more the table does not tell it
+_NONE = 1e-6  # of a new peak: what an old one is at least tells nothing
 
 
 class MoveGain(NamedTuple):
@@ -86,7 +87,8 @@ class MoveGain(NamedTuple):
     def shares(self, nu: int) -> tuple[float, float]:
         """The least and the greatest relative change of the peak of order nu, 1 to 3, that the table leaves open.
 
-        Where the old peak cannot be known from the table the least one is nan, as the old one may be of any size.
+        Where the old peak cannot be known from the table the least one is nan, as the old one may be of any size; the
+        greatest one is inf where the old peak may be 0.
 
         Examples
         --------
@@ -99,7 +101,7 @@ class MoveGain(NamedTuple):
         if not high > 0.0:
             return self.share(nu), self.share(nu)
         new = self.new[nu - 1]
-        return new / high - 1.0 if isfinite(high) else nan, new / low - 1.0 if low > 0.0 else inf
+        return new / high - 1.0 if isfinite(high) else nan, new / low - 1.0 if low > _NONE * new else inf
 
     def share(self, nu: int) -> float:
         """The relative change of the peak of order nu, 1 to 3; nan if the old one is infinite, 0 or hardly known.

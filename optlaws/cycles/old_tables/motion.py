@@ -191,6 +191,8 @@ def _begun(samples: Samples, crests: Sequence[float], advance: float) -> tuple[S
         return turn, rests_in(turn)
     longest = max(lines, key=lambda line: line.last - line.first)
     row = (longest.first + longest.last) // 2
+    # rows of a rest are a line as well, and maybe more of them
+    longest = next((rest for rest in rests if rest.first <= row <= rest.last), longest)
     turn = samples.begun_at(row, advance) if row else samples
     inner = rests_in(turn)
     if longest not in rests:
@@ -199,4 +201,5 @@ def _begun(samples: Samples, crests: Sequence[float], advance: float) -> tuple[S
     halves = (
         Line(0, longest.last - row, longest.level), Line(last - row + longest.first, last, longest.level + advance)
     )  # fmt: skip
-    return turn, [halves[0], *(rest for rest in inner if rest.first > 0 and rest.last < last), halves[1]]
+    between = (rest for rest in inner if rest.first > halves[0].last and rest.last < halves[1].first)
+    return turn, [halves[0], *between, halves[1]]

@@ -23,6 +23,7 @@ from optlaws.shown.summary import Row, Summary
 from optlaws.tolerances import NO_MARK
 
 _OLD, _NEW, _POINTS = 0, 1, 2  # colours
+_DIGITS = 9  # of percents behind the point, as far as they are no rounding
 _HARDER = 1.3  # times what is known of an old peak, which a new jerk may be above by a fifth
 
 
@@ -94,8 +95,7 @@ class OldTableReport:
             for nu in (1, 2, 3):
                 proof = [bounded(each.lower_bound), each.status] if nu == 2 else [None, ""]
                 peaks = [each.old[nu - 1], each.new[nu - 1], *proof, self.table.unit_of(nu)]
-                open_to = (100.0 * share for share in each.shares(nu))
-                change = [bounded(share) for share in (*open_to, 100.0 * each.share(nu))]
+                change = [bounded(round(100.0 * share, _DIGITS)) for share in (*each.shares(nu), each.share(nu))]
                 first = [each.kind, each.start, each.stop] if nu == 1 else ["", None, None]
                 rows.append([*first, QUANTITIES[nu], *peaks, *change, each.deviation if nu == 1 else None])
         return rows
