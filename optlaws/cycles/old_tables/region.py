@@ -144,6 +144,8 @@ class Region:
         )
         self.far: list[float] = []  # places of rows that it leaves out
         self._known_fits: dict[tuple[int, int | None], tuple[CurveFit, ...]] = {}
+        self._known_chains: dict[tuple[int, tuple[float, ...]], list[Chain]] = {}
+        self._known_parts: dict[tuple[Line | None, Line | None], Region] = {}
         self.about = float(x[first]), float(x[last])
 
     @property
@@ -288,7 +290,10 @@ class Region:
         return Parts([], chains[0].squares, chains[0].free, []) if chains and self._is_plain(chains[0]) else None
 
     def _part(self, before: Line | None, after: Line | None) -> Region:
-        return Region(self.samples, before, after, self.seam, 0.0, split=False)
+        key = before, after
+        if key not in self._known_parts:
+            self._known_parts[key] = Region(self.samples, before, after, self.seam, 0.0, split=False)
+        return self._known_parts[key]
 
     def _straight_parts(self, lines: Sequence[Line]) -> Parts | None:
         """Moves between lines, without those of which the rows make others likelier, the shortest ones first.
@@ -395,6 +400,12 @@ class Region:
 
     def _chains(self, places: Sequence[float]) -> list[Chain]:
         """The nearest standard laws between the turning points of the region, and those that are about as near."""
+        key = len(self.x), tuple(places)
+        if key not in self._known_chains:
+            self._known_chains[key] = self._nearest_chains(places)
+        return self._known_chains[key]
+
+    def _nearest_chains(self, places: Sequence[float]) -> list[Chain]:
         if len(places) - 1 > 4 or len(self.x) < 2 * len(places) + 2 or not np.all(np.diff(places) > 0.0):
             return []
         heights, known = np.interp(places, self.x, self.y), np.zeros(len(places), dtype=bool)
