@@ -120,7 +120,9 @@ def fits_of(
     whole = _Search(fitter, rough.most)
     starts = {fit.pieces: (fit.start, fit.stop) for fit in fits}
     near = float(np.median(np.diff(places)))
-    accepted = whole.accepted(whole.climbed(joints, at, near, starts, fewest=best.pieces))
+    # of rows of which some were left out in the search, fewer pieces tell no more than these did
+    fewest = best.pieces if rough.rows < len(places) else 1
+    accepted = whole.accepted(whole.climbed(joints, at, near, starts, fewest=fewest))
     return whole.with_jumps(accepted)
 
 
@@ -180,7 +182,7 @@ class _Search:
         fits: list[CurveFit] = []
         ladder = list(_ladder(self.rows, len(joints)))
         for i, pieces in enumerate(ladder):
-            if ladder[min(i + 1, len(ladder) - 1)] < fewest:
+            if ladder[min(i + 1, len(ladder) - 1)] < min(fewest, _ENDS_BY):
                 continue
             if pieces > self.most:
                 break
