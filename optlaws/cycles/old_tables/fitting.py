@@ -39,8 +39,8 @@ _MOVED = 19
 _SETTLED = 2
 #: how many models with more pieces than the best one are looked at beside it
 _FINER = 2
-#: by how much the criterion of Schwarz must fall for a joint to be there
-_EVIDENT = 12.0
+#: by how much the criterion of Schwarz must fall for a joint or a corner to be there
+EVIDENT = 12.0
 #: with as few pieces no joint is looked for: the motion is smooth
 _SIMPLE = 4
 #: a polynomial of more degrees is looked at beside joints
@@ -97,7 +97,7 @@ def fits_of(
     for continuity in (1, 0) if advance is not None and rough.best(fits).pieces > _SIMPLE else ():
         other = _Search(replace(rough.fitter, continuity=continuity), rough.most)
         family = other.climbed((), (middle[0], middle[1]), None)
-        if family and other.criterion(other.best(family)) < rough.criterion(rough.best(fits)) - _EVIDENT:
+        if family and other.criterion(other.best(family)) < rough.criterion(rough.best(fits)) - EVIDENT:
             rough, fits, fitter = other, family, replace(fitter, continuity=continuity)
     best = rough.best(fits)
     polynomials = rough.polynomials((best.start, best.stop)) if best.pieces > _SIMPLE else []
@@ -180,9 +180,8 @@ class _Search:
         Near means within a length of where fits with so many pieces start, else of where the last one does.
         """
         fits: list[CurveFit] = []
-        ladder = list(_ladder(self.rows, len(joints)))
-        for i, pieces in enumerate(ladder):
-            if ladder[min(i + 1, len(ladder) - 1)] < min(fewest, _ENDS_BY):
+        for pieces in _ladder(self.rows, len(joints)):
+            if pieces < min(fewest, _ENDS_BY) - 1:
                 continue
             if pieces > self.most:
                 break
@@ -230,7 +229,7 @@ class _Search:
         best, corners = self.best(fits), (bool(self.fitter.ends[0].line), bool(self.fitter.ends[1].line))
         while best.pieces > _CORNERED and self.fitter.advance is None and any(corners):
             search, more, family = self._cornered(best, corners)
-            if not family or search.criterion(search.best(family)) > self.criterion(best) - _EVIDENT:
+            if not family or search.criterion(search.best(family)) > self.criterion(best) - EVIDENT:
                 break
             evident = search.best(family).changes()
             if evident == corners:
@@ -265,7 +264,7 @@ class _Search:
             if not families:
                 break
             more, family = min(families, key=lambda each: self.criterion(self.best(each[1])))
-            if self.criterion(self.best(family)) > self.criterion(self.best(fits)) - _EVIDENT:
+            if self.criterion(self.best(family)) > self.criterion(self.best(fits)) - EVIDENT:
                 break
             joints, fits = more, family
         return self.smoothed(joints, fits)
@@ -281,7 +280,7 @@ class _Search:
         for pieces in range(fit.pieces, fit.pieces + _MORE):
             at = fitter.ends_of(fit.start, fit.stop, fit.joints, pieces, near)
             smooth = fitter.solved(*at, fit.joints, pieces, whole=True)[2]
-            if smooth is not None and self.criterion(smooth) <= self.criterion(fit) + _EVIDENT:
+            if smooth is not None and self.criterion(smooth) <= self.criterion(fit) + EVIDENT:
                 return list(fits)
         return [replace(each, jumps=True) for each in fits]
 
@@ -312,7 +311,7 @@ class _Search:
     def smoothed(self, joints: tuple[Joint, ...], fits: list[CurveFit]) -> tuple[tuple[Joint, ...], list[CurveFit]]:
         """Joints as smooth as fits are about as likely, which models of too few pieces showed as jumps."""
         for i in range(len(joints)):
-            most = self.criterion(self.best(fits)) + _EVIDENT
+            most = self.criterion(self.best(fits)) + EVIDENT
             for continuity in range(joints[i].continuity + 1, 3):
                 tried, family = self._settled(self._moved(joints, i, continuity, self.best(fits)), fits)
                 if family and self.criterion(self.best(family)) <= most:

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from optlaws.cycles.old_tables.region import FittedMove, Parts, Region
+from optlaws.cycles.old_tables.region import FittedMove, Parts, Region, regions
 from optlaws.cycles.old_tables.rests_and_lines import FEWEST, NOISE_ROOM, Line, lines_of, rests_of
 from optlaws.cycles.old_tables.samples import Samples, goes_on, variance_about_spline
 
@@ -52,9 +52,9 @@ def motion_of(samples: Samples) -> FittedMotion:
         clean = clean.without(np.isin(clean.places, far))
         rests = rests_of(clean)
     advance = _advance(clean)
-    turn, crests, tried, known = float(np.ptp(clean.places)), list[float](), list[float](), dict[object, Parts]()
+    turn, crests, tried, known = float(np.ptp(clean.places)), list[float](), list[float](), dict[object, Region]()
     doubtful = _doubtful(clean, rests)
-    plain = doubtful if len(doubtful) == len(rests) else _explaining_crests(clean, rests, advance)
+    plain = doubtful if len(doubtful) == len(rests) else _explaining_crests(clean, rests, advance, known)
     begun, rests, divided = _divided(clean, plain, advance, known)
     if not divided.moves or not all(move.name or move.is_corner for move in divided.moves):
         begun, rests, divided = _divided(clean, crests, advance, known)
@@ -74,28 +74,36 @@ def motion_of(samples: Samples) -> FittedMotion:
 
 
 def _divided(
-    samples: Samples, crests: list[float], advance: float, known: dict[object, Parts]
+    samples: Samples, crests: list[float], advance: float, known: dict[object, Region]
 ) -> tuple[Samples, list[Line], Parts]:
     """The turn as it is begun, its rests and its moves; further rests that are none join the crests."""
     while True:
         begun, rests = _begun(samples, crests, advance)
-        divided = _moves_between(begun, rests, float(samples.places[-1]), advance, known)
+        divided = Parts.joined([region.parts for region in _regions(samples, begun, rests, advance, known)])
         more = _crests(begun, rests, divided.moves)
         if not more:
             return begun, rests, divided
         crests += more
 
 
-def _explaining_crests(samples: Samples, rests: Sequence[Line], advance: float) -> list[float]:
+def _regions(
+    samples: Samples, begun: Samples, rests: Sequence[Line], advance: float, known: dict[object, Region]
+) -> list[Region]:
+    """The regions between rests of a turn as it is begun; those that are `known` are these."""
+    return regions(begun, [None, *rests, None], float(samples.places[-1]), advance, known, split=True)
+
+
+def _explaining_crests(
+    samples: Samples, rests: Sequence[Line], advance: float, known: dict[object, Region]
+) -> list[float]:
     """The middles of rests, not long ones, that are crests where standard laws explain the rows far better then."""
     doubtful = _doubtful(samples, rests, _NOT_LONG)
     if not doubtful:
         return []
-    seam, tried = float(samples.places[-1]), list[tuple[float, list[float]]]()
+    tried = list[tuple[float, list[float]]]()
     for crests in ([], doubtful, *([middle] for middle in doubtful if len(doubtful) > 1)):
         begun, others = _begun(samples, crests, advance)
-        regions = (Region(begun, *beside, seam, advance, split=True) for beside in pairwise([None, *others, None]))
-        explained = [region.explained() for region in regions]
+        explained = [region.explained for region in _regions(samples, begun, others, advance, known)]
         parts = [each for each in explained if each is not None]
         if len(parts) == len(explained):
             tried.append((Parts.joined(parts).criterion(len(samples.places)), crests))
@@ -114,17 +122,6 @@ def _doubtful(samples: Samples, rests: Sequence[Line], short: float = _SHORT) ->
         if length < most and np.ptp(y[rest.first : rest.last + 1]) > 0.0:
             middles.append(float(0.5 * (x[rest.first] + x[rest.last])))
     return middles
-
-
-def _moves_between(
-    samples: Samples, rests: Sequence[Line], seam: float, advance: float, known: dict[object, Parts]
-) -> Parts:
-    """The moves between rests; regions that are `known` are as before."""
-    keys = [(float(samples.places[0]), before, after) for before, after in pairwise([None, *rests, None])]
-    for key in keys:
-        if key not in known:
-            known[key] = Region(samples, *key[1:], seam, advance, split=True).parts()
-    return Parts.joined([known[key] for key in keys])
 
 
 def _crests(samples: Samples, rests: Sequence[Line], moves: Sequence[FittedMove]) -> list[float]:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from optlaws.cycles.old_tables.curve_fit import DEGREE, CurveFit, End, interpolation
-from optlaws.cycles.old_tables.fitting import SIMPLE, UNRESOLVED, fits_of, likely
+from optlaws.cycles.old_tables.fitting import EVIDENT, SIMPLE, UNRESOLVED, fits_of, likely
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
 from optlaws.cycles.old_tables.rests_and_lines import FEWEST, NOISE_ROOM, Line, lines_of
 from optlaws.cycles.old_tables.samples import MEDIAN, Samples, gaps_of, off_both_sides
@@ -43,8 +43,6 @@ _FEWEST_BESIDE = 4
 _ALONE = 0.5
 #: rows about a corner that show whether it is one, and by how many deviations of their sum they are to one side
 _BESIDE_CORNER, _TO_ONE_SIDE = (4, 32), 4.0
-#: by how much Schwarz's criterion must fall for a corner to be there, and no smooth change
-_EVIDENT = 12.0
 #: standard laws whose sums of squares differ by less are told apart by no table
 _ALIKE = 16.0
 #: of a turn: the moves of one without rest begin so far off it
@@ -145,7 +143,7 @@ class Region:
         self.far: list[float] = []  # places of rows that it leaves out
         self._known_fits: dict[tuple[int, int | None], tuple[CurveFit, ...]] = {}
         self._known_chains: dict[tuple[int, tuple[float, ...]], list[Chain]] = {}
-        self._known_parts: dict[tuple[Line | None, Line | None], Region] = {}
+        self._known: dict[object, Region] = {}
         self.about = float(x[first]), float(x[last])
 
     @property
@@ -193,6 +191,7 @@ class Region:
         between = self.before is not None and self.after is not None and len(slopes) > 1
         return self.rows <= _FEWEST_MOVING and (not between or self._corner is not None)
 
+    @cached_property
     def parts(self) -> Parts:
         """The moves of the region."""
         if self._has_few_rows:
@@ -269,17 +268,13 @@ class Region:
 
     def _explained_parts(self, lines: Sequence[Line]) -> Parts | None:
         """Corners and standard laws between as many of the lines as leave nothing but noise; None where none do."""
-        explained = dict[object, bool]()
         for count in range(len(lines), 0, -1):  # the middle of a law may look like a line
             for some in combinations(lines, count):
-                keys = list(pairwise([self.before, *some, self.after]))
-                for key in keys:
-                    if key not in explained:
-                        explained[key] = self._part(*key).explained() is not None
-                if all(explained[key] for key in keys):
-                    return self._parts_between(some, {})
+                if all(region.explained for region in self._regions(some)):
+                    return self._parts_between(some)
         return None
 
+    @cached_property
     def explained(self) -> Parts | None:
         """The sum of squares where noise alone is between its rows and rests, a corner or standard laws; else None."""
         if self._has_few_rows:
@@ -289,11 +284,8 @@ class Region:
         chains = self._chains(self._turns())
         return Parts([], chains[0].squares, chains[0].free, []) if chains and self._is_plain(chains[0]) else None
 
-    def _part(self, before: Line | None, after: Line | None) -> Region:
-        key = before, after
-        if key not in self._known_parts:
-            self._known_parts[key] = Region(self.samples, before, after, self.seam, 0.0, split=False)
-        return self._known_parts[key]
+    def _regions(self, lines: Sequence[Line]) -> list[Region]:
+        return regions(self.samples, [self.before, *lines, self.after], self.seam, 0.0, self._known, split=False)
 
     def _straight_parts(self, lines: Sequence[Line]) -> Parts | None:
         """Moves between lines, without those of which the rows make others likelier, the shortest ones first.
@@ -306,14 +298,13 @@ class Region:
         smooth = self._fits(SIMPLE)
         if _is_simple(smooth) and likely(smooth[0].squares, len(self.x)):
             return None
-        known = dict[tuple[Line | None, Line | None], Parts]()
-        parts = self._parts_between(lines, known)
-        beside = dict(zip(lines, pairwise(known.values()), strict=True))
-        shorter = [line for line in lines if _is_between_longer(*beside[line])]
+        parts = self._parts_between(lines)
+        beside = zip(lines, pairwise(region.parts for region in self._regions(lines)), strict=True)
+        shorter = [line for line, (before, after) in beside if _is_between_longer(before, after)]
         for line in sorted(shorter, key=lambda line: line.last - line.first):
             others = [each for each in lines if each is not line]
-            without = self._parts_between(others, known) if others else parts
-            if without.criterion(len(self.x)) < parts.criterion(len(self.x)):
+            without = self._parts_between(others) if others else parts
+            if self._criterion(without) < self._criterion(parts):
                 lines, parts = others, without
         return parts
 
@@ -328,17 +319,16 @@ class Region:
         named = all(move.name or move.is_corner for move in parts.moves)
         return named and self._is_simpler(parts, self._fits(SIMPLE))
 
-    def _parts_between(self, lines: Sequence[Line], known: dict[tuple[Line | None, Line | None], Parts]) -> Parts:
-        """Moves between given lines; those between two that are `known` are as before."""
-        keys = list(pairwise([self.before, *lines, self.after]))
-        for key in keys:
-            if key not in known:
-                known[key] = self._part(*key).parts()
-        return Parts.joined([known[key] for key in keys], 2 * len(lines))
+    def _parts_between(self, lines: Sequence[Line]) -> Parts:
+        """Moves between given lines."""
+        return Parts.joined([region.parts for region in self._regions(lines)], 2 * len(lines))
 
     def _is_simpler(self, parts: Parts, fits: Sequence[CurveFit]) -> bool:
-        rows = len(self.x)
-        return not fits or parts.criterion(rows) < fits[0].criterion(float(np.log(rows)))
+        return not fits or self._criterion(parts) < self._criterion(fits[0])
+
+    def _criterion(self, model: Parts | Chain | CurveFit) -> float:
+        """Schwarz's criterion for its rows."""
+        return criterion(model.squares, model.free, len(self.x))
 
     def _left_out(self, chain: Chain) -> int:
         """Leave out rows far off standard laws that explain all others, and tell how many these are."""
@@ -381,8 +371,9 @@ class Region:
         if not likely(chain.squares, rows) or chain.is_bent:
             return False
         smooth = self._fits(SIMPLE) if any(change > JUMP for change in chain.changes) else ()
-        least = criterion(chain.squares, chain.free, rows) + _EVIDENT
-        return not smooth or not likely(smooth[0].squares, rows) or smooth[0].criterion(float(np.log(rows))) > least
+        if not smooth or not likely(smooth[0].squares, rows):
+            return True
+        return self._criterion(smooth[0]) > self._criterion(chain) + EVIDENT
 
     def _explains(self, chain: Chain, fit: CurveFit) -> bool:
         """Whether rows are as near standard laws as splines make likely, by the test of Fisher or the simpler model."""
@@ -394,7 +385,7 @@ class Region:
         left, best = max(rows - chain.free, 1), max(rows - fit.free, 1)
         more = fit.free - chain.free
         if more <= 0:
-            return criterion(chain.squares, chain.free, rows) <= criterion(fit.squares, fit.free, rows)
+            return self._criterion(chain) <= self._criterion(fit)
         ratio = max(chain.squares - fit.squares, 0.0) / more / max(fit.squares / best, 1e-300)
         return bool(fdtrc(more, best, ratio) > _UNLIKELY) or chain.squares / left <= 1.0
 
@@ -429,9 +420,9 @@ class Region:
             resting = outline.chains(min(long, 0.2 * float(np.diff(places).min())))
             if resting[0].squares < chains[0].squares - _ALIKE:
                 chains = resting
-        nearest, rows = chains[0], len(self.x)
+        nearest = chains[0]
         smooth = outline.smoothly(nearest)
-        if smooth and criterion(smooth.squares, smooth.free, rows) <= criterion(nearest.squares, nearest.free, rows):
+        if smooth and self._criterion(smooth) <= self._criterion(nearest):
             nearest = smooth
         rounded = nearest.rounded(self.x, self.y, self.noise, self.digit, bounds)
         return [rounded, *(each for each in chains if each.squares <= chains[0].squares + _ALIKE)]
@@ -545,6 +536,18 @@ class Region:
         least = least_peak(x, y, noise, self.digit, nu) if len(x) > nu + 1 else 0.0
         # models with less than the rows have do not hold
         return PeakInterval(least, max(most, least) if least <= _AT_ODDS * most else np.inf)
+
+
+def regions(
+    samples: Samples, lines: Sequence[Line | None], seam: float, advance: float, known: dict[object, Region],
+    *, split: bool,
+) -> list[Region]:  # fmt: skip
+    """The regions between rests or lines, None at an end of the table; those that are `known` are these."""
+    keys = [(float(samples.places[0]), before, after) for before, after in pairwise(lines)]
+    for key in keys:
+        if key not in known:
+            known[key] = Region(samples, *key[1:], seam, advance, split=split)
+    return [known[key] for key in keys]
 
 
 def _is_between_longer(before: Parts, after: Parts) -> bool:

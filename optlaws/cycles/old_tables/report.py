@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from optlaws.cycles.old_tables.better_laws import MoveGain
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.stretches import Stretch, law_of_move
 from optlaws.cycles.old_tables.table import OldTable
@@ -57,9 +58,9 @@ class OldTableReport:
         """Acceleration and jerk of the whole cycle where they are far above what is known of those of the table."""
         if self.new is None:
             return
-        if any(None in row[9:12] for row in self._gains()):
+        if any(None in row[9:12] for row in self._rows_of_gains):
             yield sentence("a change that is empty cannot be known from this table")
-        whole = self.new.gain_of_cycle(self.table)
+        *_, whole = self._gains
         for nu in (2, 3):
             (low, high), new = whole.intervals[nu - 1], whole.new[nu - 1]
             name, unit = QUANTITIES[nu], self.table.unit_of(nu)
@@ -75,7 +76,7 @@ class OldTableReport:
 
         A change is that from the fitted old law; the least and the most are what the points leave open.
         """
-        old, new = self.table, self._gains()
+        old, new = self.table, self._rows_of_gains
         ends = [f"from, {old.master}", f"to, {old.master}"]
         rows = [
             [part.kind, part.start, part.stop, part.stroke or None, old.law_in_words(part) if part.law else ""]
@@ -86,11 +87,18 @@ class OldTableReport:
         gains = ["what", *ends, "peak", "old", "new", "lower bound", "status", "unit", *change, f"off by, {old.unit}"]
         return (stretches, ReportTable(gains, new)) if new else (stretches,)
 
-    def _gains(self) -> list[list[Any]]:
+    @kept_property
+    def _gains(self) -> tuple[MoveGain, ...]:
+        """The gains of the moves, and last that of the whole cycle; none without better laws."""
+        return () if self.new is None else (*self.new.gains(self.table), self.new.gain_of_cycle(self.table))
+
+    @kept_property
+    def _rows_of_gains(self) -> list[list[Any]]:
         if self.new is None:
             return []
-        rows, whole = [], self.new.gain_of_cycle(self.table)
-        changed = [each for each in self.new.gains(self.table) if each.deviation]
+        rows = []
+        *moves, whole = self._gains
+        changed = [each for each in moves if each.deviation]
         for each in [*changed, whole] if changed or any(part.corner is not None for part in self.new.moves) else ():
             for nu in (1, 2, 3):
                 proof = [bounded(each.lower_bound), each.status] if nu == 2 else [None, ""]
@@ -152,7 +160,6 @@ class OldTableReport:
         facts["outliers"] = [float(old.places[i]) for i in old.outliers]
         if new is None:
             return facts
-        gains = [*new.gains(old), new.gain_of_cycle(old)]
         ends = (
             {
                 "old": list(map(bounded, each.old)),
@@ -161,9 +168,9 @@ class OldTableReport:
                 "lower_bound": bounded(each.lower_bound),
                 "status": each.status or None,
             }
-            for each in gains
+            for each in self._gains
         )
-        *moves, whole = (each._asdict() | end for each, end in zip(gains, ends, strict=True))
+        *moves, whole = (each._asdict() | end for each, end in zip(self._gains, ends, strict=True))
         return facts | {"gains": moves, "gain_of_cycle": whole}
 
 

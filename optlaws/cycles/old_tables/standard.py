@@ -131,8 +131,7 @@ class Chain:
         for side in (0, 1):
             if self.slopes[side] and not self.smooth[side]:
                 stroke, length = np.diff(self.heights)[-side], np.diff(self.places)[-side]
-                velocity = stroke / length * catalogue[self.names[-side]].law(float(side), 1)
-                changes[side] = abs(float(velocity) / self.slopes[side] - 1.0)
+                changes[side] = abs(float(stroke / length) * _velocity_at(self.names, side) / self.slopes[side] - 1.0)
         return changes[0], changes[1]
 
     @property
@@ -171,9 +170,14 @@ def _smoothed(
     moved = places.copy()
     for side, (end, beside) in enumerate(((0, 1), (-1, -2))):
         if smooth[side]:
-            velocity = float(catalogue[names[-side]].law(float(side), 1))
-            moved[beside] = places[end] + velocity * (heights[beside] - heights[end]) / slopes[side]
+            strokes = (heights[beside] - heights[end]) / slopes[side]
+            moved[beside] = places[end] + _velocity_at(names, side) * strokes
     return moved
+
+
+def _velocity_at(names: Sequence[str], side: int) -> float:
+    """The velocity with which the first law starts, or with which the last one stops, dimensionless."""
+    return float(catalogue[names[-side]].law(float(side), 1))
 
 
 def _positions(names: Sequence[str], places: Array, heights: Array, x: Array) -> Array:
@@ -318,7 +322,7 @@ class Outline:
         spread[[count, -1], [0, count - 1]] += self.slopes
         for at_end, (end, beside) in enumerate(((0, 1), (count - 1, count - 2))):
             if self.smooth[at_end]:
-                velocity = float(catalogue[names[-at_end]].law(float(at_end), 1)) / self.slopes[at_end]
+                velocity = _velocity_at(names, at_end) / self.slopes[at_end]
                 spread[beside] = spread[end] + velocity * (spread[count + beside] - spread[count + end])
         return source, spread[:, [column for column in range(spread.shape[1]) if spread[:, column].any()]]
 

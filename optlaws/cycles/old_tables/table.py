@@ -419,7 +419,7 @@ class OldTable:
 
     def blend_in_words(self, part: Stretch) -> str:
         """From where to where a corner is taken away, with the acceleration there."""
-        C = abs(part.stroke) / (part.stop - part.start) ** 2 * law_of_move(part).constants.C.value
+        C = peaks_of(part)[1]
         ends = f"{part.start:.5g}", Amount(part.stop, self.master, 5)
         return sentence(
             "the corner at {} to {} is taken away, with an acceleration of {}", *ends, Amount(C, self.unit_of(2), 3)
