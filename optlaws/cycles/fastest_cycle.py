@@ -21,7 +21,7 @@ from optlaws.files.reading import renamed_entries
 from optlaws.kept import former_name, kept_property
 from optlaws.lazy import imported
 from optlaws.motion.quantities import TURN, Kind
-from optlaws.sentences import Amount, joined, sentence
+from optlaws.sentences import Amount, joined, quantity_name, sentence
 from optlaws.shown.report import Report
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
@@ -89,7 +89,8 @@ class LimitGain:
     ratio: float
 
     def __str__(self) -> str:
-        return f"10 % more {self.limit}: {60.0 * self.speed / TURN:.6g} rpm, {100.0 * (self.ratio - 1.0):.3g} % faster"
+        limit, faster = quantity_name(self.limit), 100.0 * (self.ratio - 1.0)
+        return f"10 % more {limit}: {60.0 * self.speed / TURN:.6g} rpm, {faster:.3g} % faster"
 
 
 def _cycle(value: Any) -> Any:
@@ -291,5 +292,5 @@ def _binding(search: FastestSearch, segments: Sequence[LeastDuration]) -> tuple[
     rating = search.binding_rating
     if rating is not None:
         most = Amount(rating.most, FORCE_UNITS[search.programme.axis])
-        return (sentence("the whole cycle: {} {}", rating.name, most),)
+        return (sentence("the whole cycle: {} {}", quantity_name(rating.name), most),)
     return tuple(sentence("{}: {}", each.name, joined(", ", each.limits)) for each in segments if each.binding)

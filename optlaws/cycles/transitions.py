@@ -28,6 +28,7 @@ from optlaws.motion.motion import MASTERS, Motion
 from optlaws.motion.piece import Piece, factor, unit_of, values_of_pieces
 from optlaws.motion.quantities import QUANTITIES, Exact, given_quantity, quantity
 from optlaws.numbers import Quantity
+from optlaws.sentences import quantity_name
 from optlaws.shown.report import PlainReport, Report, ReportSegment
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.least_time.time_search import least_time
@@ -185,7 +186,7 @@ class TransitionCam(MovePlan, Declared, title="a transition cam"):
     def _facts(self) -> Summary:
         rows = [Row("master", self.master, "deg"), Row("time", self.duration, "s"), Row("status", self.status.value)]
         if self.least is not None:
-            binding = ", ".join(self.least.binding)
+            binding = ", ".join(map(quantity_name, self.least.binding))
             rows.append(Row("lower bound (proven)", self.least.none_below, "s", note=f"{binding} binds"))
             rows.append(best_possible_row(self.least.best_possible, self.duration))
         elif self.solution.best_possible is None:

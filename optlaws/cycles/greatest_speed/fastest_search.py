@@ -47,7 +47,7 @@ from optlaws.mechanisms.drives.effort import PieceEffort
 from optlaws.motion.piece import Piece, factor, jump_beside
 from optlaws.motion.quantities import Kind
 from optlaws.numerics.roots import falling_root
-from optlaws.sentences import sentence
+from optlaws.sentences import quantity_name, sentence
 from optlaws.synthesis.least_time.move_limits import SpanLimit
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
@@ -373,7 +373,7 @@ class ForceRating:
         period = exp(falling_root(lambda logarithm: self._over(exp(logarithm)), begin, log(1.5), LEAST_SCALE_MET))
         if period == inf:
             raise InfeasibleProblem(
-                f"limits: no speed keeps the {self.name} of {self.most:.9g}: the static load alone needs more: "
+                f"limits: no speed keeps the {quantity_name(self.name)} of {self.most:.9g}: the static load alone needs more: "
                 "allow more, or change the drive's spring, preload, gravity or friction"
             )
         return period * (1.0 + 2.0 * LEAST_SCALE_MET)

@@ -28,6 +28,7 @@ from optlaws.motion.piece import Piece, unit_of
 from optlaws.motion.quantities import DEGREES, QUANTITIES, Exact, quantity
 from optlaws.numbers import Array, Quantity, derivative, number_or_array, positive, real_times
 from optlaws.numerics.roots import bisect
+from optlaws.sentences import quantity_name
 from optlaws.shown.curve_points import refined
 from optlaws.shown.difference import Difference, Differences
 from optlaws.shown.report import Panel, PanelLimit, Report, ReportSegment, ReportTable, Series
@@ -208,7 +209,9 @@ class FastestMove(LawExport, MovePlan, JsonText):  # type: ignore[misc] # its ex
         """The active limits, and the time that a tenth more of each would save, in words."""
         gains = self.gains()
         return tuple(
-            f"{name}: 10 % more saves {100.0 * gains[name]:.2g} % of the time" if name in gains else f"{name} binds"
+            f"{name}: 10 % more saves {100.0 * gains[name]:.2g} % of the time"
+            if name in gains
+            else f"{quantity_name(name)} binds"
             for name in self.binding
         )
 
@@ -363,7 +366,9 @@ class MoveReport:
     @property
     def facts(self) -> Summary:
         """The least time with its proof, and the use of each limit with the time that a higher one saves."""
-        rows = (Row(each.name, each.value, each.unit, note=self._note(each)) for each in self.limits_taken)
+        rows = (
+            Row(quantity_name(each.name), each.value, each.unit, note=self._note(each)) for each in self.limits_taken
+        )
         beside = self.move.beside
         worse = [] if beside is None else beside.remark_rows
         return Summary([*self.move.proof_rows(), *rows, *worse])

@@ -182,7 +182,7 @@ class TimeFront(JsonText):
             return before
         if not self.falls:
             raise InputError(
-                f"the {self.minimise} may rise with the time, so there is no bound between the points of the "
+                f"the {quantity_name(self.minimise)} may rise with the time, so there is no bound between the points of the "
                 f"front; the nearest are at {before.duration:.9g} s and {self.durations[i + 1]:.9g} s"
             )
         after, nu = self[i + 1], self.objective.nu
@@ -453,7 +453,7 @@ def _objective(
 def _at_motor(name: str, move: TimedMove, drive: Drive | None, start: NumberOrQuantity) -> MoveObjective:
     torque = move.torque if drive is None else motor_torque(drive, start, move.stroke, {Kind.RMS_FORCE: (-1.0, 1.0)})
     if torque is None or (drive is None and name == "energy"):
-        raise InputError(f"minimise: the {name} is that of a motor: give its drive")
+        raise InputError(f"minimise: the {quantity_name(name)} is that of a motor: give its drive")
     if name == "torque" and torque.gear is not None:
         raise InputError(
             "minimise: the least peak torque behind a gear that loses power is not known: minimise the RMS torque or "
@@ -461,8 +461,8 @@ def _at_motor(name: str, move: TimedMove, drive: Drive | None, start: NumberOrQu
         )
     if not (move.at_rest and move.problem.monotone):
         raise InputError(
-            f"minimise: the {name} at a motor is that of laws from rest to rest which never turn back: limit the "
-            'velocity from 0, as in {"velocity": ("0 rad/s", "1 rad/s")}, or give fastest the drive'
+            f"minimise: the {quantity_name(name)} at a motor is that of laws from rest to rest which never turn back: limit "
+            'the velocity from 0, as in {"velocity": ("0 rad/s", "1 rad/s")}, or give fastest the drive'
         )
     free = replace(torque, peak=None, rms=1.0)
     if move.torque is not None and free != replace(move.torque, peak=None, rms=1.0):

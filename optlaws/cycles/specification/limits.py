@@ -13,7 +13,7 @@ from optlaws.errors import InputError
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import Kind, in_small_units, quantity, written
 from optlaws.numerics.peaks import is_kept
-from optlaws.sentences import Amount, sentence
+from optlaws.sentences import Amount, quantity_name, sentence
 
 #: a `Load`, which knows this module
 Load: TypeAlias = Any
@@ -161,7 +161,7 @@ class LimitTaken(NamedTuple):
 
     def __str__(self) -> str:
         value, limit = self.value_text or f"{self.value:.6g}", self.text or f"{self.limit:.6g}"
-        return sentence("{}{}, {} of {}", f"{self.where}: " if self.where else "", self.name, value, limit)
+        return sentence("{}{}, {} of {}", f"{self.where}: " if self.where else "", quantity_name(self.name), value, limit)
 
 
 def read_limits(entries: Mapping[str, Any], axis: str, where: str, load: Load = None) -> Limits:

@@ -218,7 +218,7 @@ def _of_cycle(spec: CycleProblemFile, axis: AxisEntries) -> _Search:
 
 def _use(name: str, share: float) -> dict[str, Any]:
     """A limit with the share of it that is taken, in percent."""
-    return {"name": name, "text": digits(100.0 * share, 4), "full": share >= _FULL}
+    return {"name": quantity_name(name), "text": digits(100.0 * share, 4), "full": share >= _FULL}
 
 
 def _stretches(times: Array, shares: Mapping[str, Array]) -> Iterator[dict[str, Any]]:
@@ -229,7 +229,7 @@ def _stretches(times: Array, shares: Mapping[str, Array]) -> Iterator[dict[str, 
         stop = start + len(list(places))
         most = float(shares[names[i]][start:stop].max())
         ends = [at[start], at[min(stop, len(times) - 1)]]
-        yield {"name": names[i] if most else "rest", "at": ends, "law": i, "full": most >= _FULL}
+        yield {"name": quantity_name(names[i]) if most else "rest", "at": ends, "law": i, "full": most >= _FULL}
         start = stop
 
 

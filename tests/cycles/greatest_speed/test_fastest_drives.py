@@ -212,8 +212,8 @@ def test_the_rms_torque_of_an_inertia_falls_with_the_square_of_the_period() -> N
     assert least.lower_bound is not None
     assert fastest.period == pytest.approx((least.lower_bound / 1.75) ** 0.5, rel=1e-7)
     assert fastest.cycle.effort.rms_force == pytest.approx(1.75, rel=1e-7)
-    assert fastest.binding == ("the whole cycle: rms torque 1.75 N m",)
-    assert [str(gain) for gain in fastest.gains] == ["10 % more rms torque: 64.774 rpm, 4.88 % faster"]
+    assert fastest.binding == ("the whole cycle: RMS torque 1.75 N m",)
+    assert [str(gain) for gain in fastest.gains] == ["10 % more RMS torque: 64.774 rpm, 4.88 % faster"]
 
 
 @pytest.mark.long
@@ -255,7 +255,7 @@ def test_a_rating_of_given_laws_and_one_below_the_weight() -> None:
     assert fastest.status == "optimal"
     assert fastest.cycle.effort.rms_force == pytest.approx(1.75, rel=1e-7)
     with pytest.raises(
-        InfeasibleProblem, match=r"no speed keeps the rms torque of 1\.75: the static load alone needs more"
+        InfeasibleProblem, match=r"no speed keeps the RMS torque of 1\.75: the static load alone needs more"
     ):
         cycle(segments=given, drive=MOTOR | {"gravity": "2 N m"}, limits={"rms torque": "1.75 N m"}).fastest()
     free = [Rise("90 deg"), Dwell("40 ms"), Return(), Dwell("90 deg")]
