@@ -21,7 +21,7 @@ from optlaws import (
     synthesize,
 )
 from tests.internals.verification import prove
-from tests.synthesis.grids import Grid, polynomials
+from tests.synthesis.numpy_laws import grid, laws_of
 
 Array = NDArray[np.float64]
 
@@ -52,14 +52,14 @@ def text_of(sizes: Sizes) -> str:
     return f"integral({' + '.join(f'{weight}*abs({one})' for (weight, _), one in zip(sizes, sums, strict=True))})"
 
 
-def least_on_grid(grid: Grid, sizes: Sizes) -> float:
-    """The least sum of the sizes at the grid's places, by weights of the trapezium rule."""
-    k = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, _POINTS))
+def least_on_grid(problem: Problem, sizes: Sizes) -> float:
+    """The least sum of the sizes at places that are dense at the ends, by weights of the trapezium rule."""
+    laws, k = laws_of(problem), grid(0.0, 1.0, _POINTS)
     weights = np.gradient(k)
-    free = len(grid.series[0]) - 1
+    free = laws.free
     cost, table, right = [np.zeros(free)], [], []
     for i, (weight, inner) in enumerate(sizes):
-        rows = np.sum([factor * grid.rows(nu) for nu, factor in inner.items()], axis=0)
+        rows = np.sum([factor * laws.rows(laws.derivative(nu), 0, k) for nu, factor in inner.items()], axis=0)
         own = np.zeros((_POINTS, len(sizes) * _POINTS))
         own[:, i * _POINTS : (i + 1) * _POINTS] = -np.eye(_POINTS)
         for sign in (1.0, -1.0):
@@ -79,7 +79,7 @@ def test_sums_of_sizes_are_proven_and_what_a_grid_says(seed: int) -> None:
     solution = synthesize(Problem(order=order, basis=Chebyshev(degree), symmetric=False, minimise=text_of(sizes)))
     assert solution.status is Status.OPTIMAL
     assert solution.lower_bound <= solution.objective * (1.0 + 1e-12)
-    assert solution.objective == pytest.approx(least_on_grid(polynomials(order, degree, _POINTS), sizes), rel=2e-3)
+    assert solution.objective == pytest.approx(least_on_grid(solution.problem, sizes), rel=2e-3)
 
 
 @pytest.mark.sample(4)
@@ -216,10 +216,9 @@ def test_no_descent_of_scipy_finds_a_law_of_less_heat(seed: int) -> None:
     share, waves, drag = numbers.uniform(0.2, 3.0), int(numbers.integers(1, 3)), numbers.uniform(0.0, 1.0)
     torque = drive_torque(inertia=f"1 + {share:.3f}*sin({waves}*pi*a)^2", friction=f"{drag:.3f}")
     heat = rms(torque)
-    ours = synthesize(Problem(order=3, basis=Chebyshev(5), symmetric=False, minimise=heat)).objective
-    grid = polynomials(3, 5, 201)
-    motion = grid.rows(0), grid.rows(1), grid.rows(2)
-    k = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 201))
+    solution, k = synthesize(Problem(order=3, basis=Chebyshev(5), symmetric=False, minimise=heat)), grid(0.0, 1.0, 201)
+    laws = laws_of(solution.problem)
+    motion = [laws.rows(laws.derivative(nu), 0, k) for nu in range(3)]
 
     def on_grid(z: Array) -> float:
         a, b, c = (rows @ np.append(z, 1.0) for rows in motion)
@@ -227,9 +226,9 @@ def test_no_descent_of_scipy_finds_a_law_of_less_heat(seed: int) -> None:
         force = (1.0 + share * np.sin(waves * np.pi * a) ** 2) * c + 0.5 * bend * b**2 + drag * b
         return float(np.trapezoid(force**2, k))
 
-    starts = [np.zeros(6), *numbers.normal(size=(4, 6)) * 3.0]
+    starts = [np.zeros(laws.free), *numbers.normal(size=(4, laws.free)) * 3.0]
     least = min(minimize(on_grid, start, method="BFGS").fun for start in starts)
-    assert ours <= float(np.sqrt(least)) * (1.0 + 2e-3)
+    assert solution.objective <= float(np.sqrt(least)) * (1.0 + 2e-3)
 
 
 @pytest.mark.sample(8)

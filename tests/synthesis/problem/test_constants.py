@@ -7,7 +7,20 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import Basis, Chebyshev, Powers, Problem, Solution, at_most, between, law_from_z, synthesize
+from optlaws import (
+    Basis,
+    BSplines,
+    Chebyshev,
+    Pieces,
+    Powers,
+    Problem,
+    Solution,
+    Window,
+    at_most,
+    between,
+    law_from_z,
+    synthesize,
+)
 from tests.sampling import sampled
 from tests.synthesis.independent import DENSE, z_of
 from tests.synthesis.judge import Judged, judge
@@ -79,11 +92,38 @@ CURVED: list[dict[str, Any]] = [
     {"minimise": "rms_c/3.5 + rms_j/25", "B": between(1.5, 1.6), "inflexion": 0.5},
     {"minimise": "0.5*rms_c/3.5 + 0.5*J/32", "order": 3, "B": 1.8, "monotone": True},
 ]
+#: bounds of one side, zones, inflexions and laws in pieces, of order 3: of each kind one each time, and one more
+OTHERS: list[dict[str, Any]] = [
+    {"minimise": "C_plus", "symmetric": False, "bounds": {"C_minus": at_most(4.0)}},
+    {"minimise": "C_plus", "symmetric": False, "basis": Chebyshev(11), "bounds": {"C_minus": at_most(3.5)}},
+    {"bounds": {"snap": at_most(900.0)}},
+    {"bounds": {"snap": at_most(2000.0)}},
+    {"symmetric": False, "windows": (Window("a", high=0.12, stop=0.4), Window("a", low=0.75, start=0.6))},
+    {"symmetric": False, "windows": (Window("a", high=0.2, stop=0.4), Window("a", low=0.75, start=0.6))},
+    *({"B": B, "symmetric": False, "inflexion": k} for k in (0.25, 0.7) for B in (1.6, 2.1)),
+    {"B": 2.2, "symmetric": False, "basis": BSplines(6, 3)},
+    {"B": 1.6, "symmetric": False, "basis": BSplines(6, 3), "inflexion": 0.4},
+    {"minimise": "J", "basis": BSplines(8, 3)},
+    {"B": 1.4, "basis": Pieces(20, 3, 2)},
+    {"B": 1.7, "basis": Pieces(20, 3, 2)},
+    {"B": 2.6, "minimise": "J", "basis": Pieces(6, 6, 4), "monotone": True},
+    {"B": 2.1548, "basis": Pieces(6, 6, 4), "monotone": True},
+    {"B": 1.9, "symmetric": False, "basis": Pieces((0.0, 0.3, 0.5, 1.0), 5, 2)},
+    {"B": 1.9, "symmetric": False, "basis": Pieces((0.0, 0.3, 0.55, 1.0), 5, 1)},
+    {"B": between(2.4751, 2.6751), "symmetric": False, "inflexion": 0.5, "minimise": "max(C/4, J/32)"},
+    # b may not pass b(1/2) even where it stays below the upper end of the range
+    {"B": between(2.5435, 2.7435), "symmetric": False, "inflexion": 0.5, "minimise": "C_plus", "J": at_most(166.876)}
+    | {"order": 2, "basis": Chebyshev(12), "monotone": True},
+]
 
 
 @pytest.mark.parametrize(
     ("given", "rel"),
-    [*sampled([(one, 5e-9) for one in LINEAR], 4), *sampled([(one, 3e-8) for one in CURVED], 15)],
+    [
+        *sampled([(one, 5e-9) for one in LINEAR], 4),
+        *sampled([(one, 3e-8) for one in CURVED], 15),
+        *sampled([({"order": 3, **one}, 5e-9) for one in OTHERS], 2),
+    ],
     ids=shape,
 )
 def test_highs_or_clarabel_finds_the_same_optimum_among_all_laws_of_eq_8(given: dict[str, Any], rel: float) -> None:
