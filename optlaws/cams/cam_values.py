@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import degrees
 
 from optlaws.cams.barrel import BarrelCam
@@ -99,12 +99,15 @@ def known_values(*parts: Callable[[], Values]) -> Values:
     return values
 
 
-def cam_differences(name: str, usual: Values, chosen: Values, objective: str = "") -> Differences:
-    """The values of a cam beside those of the same cam with the usual law of a name; first what was minimised."""
+def cam_differences(
+    name: str, usual: Values, chosen: Values, objective: str = "", broken: Callable[[], Sequence[str]] = tuple
+) -> Differences:
+    """The values of a cam beside those with the usual law of a name, and what that breaks; first what was minimised."""
     return Differences(
         name,
         [Difference(what, unit, usual.get(what, (None, ""))[0], value) for what, (value, unit) in chosen.items()],
         objective,
+        broken,
     )
 
 

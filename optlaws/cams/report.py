@@ -28,6 +28,7 @@ from optlaws.cams.followers.follower import positive
 from optlaws.cams.forces import CamForces, Surfaces
 from optlaws.cams.least_sizes import CamLimits
 from optlaws.cycles.cycle import Cycle, Plan
+from optlaws.cycles.placed import broken_limits
 from optlaws.cycles.usual_law import usual_cycle
 from optlaws.kept import kept_property
 from optlaws.laws.catalogue.catalogue import USUAL
@@ -109,7 +110,11 @@ class CamReport:
             parts.append(lambda: objective_value(motion, least))
             return known_values(*parts, *([lambda: force_values(CamForces(placed))] if driven else []))
 
-        return cam_differences(USUAL, values(usual), values(chosen), least)
+        def broken() -> list[str]:
+            of_cam = self.limits.broken(replace(cam, motion=usual).extremes)
+            return [*broken_limits(usual.solve(), chosen.specification), *of_cam.values()]
+
+        return cam_differences(USUAL, values(usual), values(chosen), least, broken)
 
     @property
     def beyond(self) -> list[Sentence]:
@@ -293,7 +298,8 @@ def barrel_differences(cam: BarrelCam) -> Section:
         barrel_values(replace(cam, motion=motion), TURN / motion.duration) | objective_value(motion, least)
         for motion in both
     )
-    return cam_differences(USUAL, usual, chosen, least).section()
+    broken = partial(broken_limits, both[0].solve(), both[1].specification)
+    return cam_differences(USUAL, usual, chosen, least, broken).section()
 
 
 #: what is known of the cusps of a flank by the status of its undercut

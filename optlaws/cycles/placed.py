@@ -32,7 +32,7 @@ from optlaws.motion.piece import Piece, jump_beside, unit_of
 from optlaws.motion.quantities import QUANTITIES, Exact, Kind
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, joined, sentence
-from optlaws.tolerances import AGREEMENT, CLOSURE, SAME_TIME, VALUE_ROUNDING
+from optlaws.tolerances import AGREEMENT, BINDING_LIMIT, CLOSURE, SAME_TIME, VALUE_ROUNDING
 
 if TYPE_CHECKING:
     from optlaws.mechanisms.drives.effort import Margin
@@ -201,10 +201,20 @@ def limits_taken(plan: Plan, limited: Cycle | None = None) -> tuple[LimitTaken, 
     return (*(each.taken for each in _most(plan, given)), *_of_whole(plan, given))
 
 
-def broken_limits(plan: Plan) -> Sequence[str]:
-    """What its laws take beyond its limits, and beyond those of its motor."""
-    broken = [sentence("{}", taken) for taken in plan.limits_taken if not taken.is_kept]
-    uses = ((each.name, f"{100.0 * each.use:.4g}".replace("inf", "∞")) for each in overloads(plan))
+def limits_reached(plan: Plan) -> tuple[LimitTaken, ...]:
+    """The use of every limit as `limits_taken` has it, and by every other segment that takes it to the full."""
+    given = plan.specification
+    most = {each.taken for each in _most(plan, given)}
+    each = (known.taken for known in _taken(plan, given))
+    full = (taken for taken in each if taken in most or taken.share >= 1.0 - BINDING_LIMIT)
+    return (*full, *_of_whole(plan, given))
+
+
+def broken_limits(plan: Plan, limited: Cycle | None = None) -> Sequence[str]:
+    """What its laws take beyond its limits and those of its motor, or beyond those of another cycle like it."""
+    broken = [sentence("{}", taken) for taken in limits_taken(plan, limited) if not taken.is_kept]
+    overloaded = overloads(plan) if limited is None else []
+    uses = ((each.name, f"{100.0 * each.use:.4g}".replace("inf", "∞")) for each in overloaded)
     return [*broken, *(sentence("the motor's {}, {} % of it", *use) for use in uses)]
 
 
@@ -283,12 +293,17 @@ def limit_rows(plan: Plan) -> list[Row]:
 def _most(plan: Plan, given: Cycle) -> list[_Taken]:
     """For each limit of segments, by name, the quantity that uses most of it."""
     most: dict[str, _Taken] = {}
-    for each in _of_segments(plan.peaks, plan.specification, _limits(given), given.programme.stretches):
+    for each in _taken(plan, given):
         # of segments that take the same, but for rounding, the first
         known = most.get(each.taken.name)
         if known is None or each.taken.share > known.taken.share + VALUE_ROUNDING * abs(known.taken.share):
             most[each.taken.name] = each
     return list(most.values())
+
+
+def _taken(plan: Plan, given: Cycle) -> Iterator[_Taken]:
+    """The use of the limits of segments, each by the laws of a plan in it."""
+    return _of_segments(plan.peaks, plan.specification, _limits(given), given.programme.stretches)
 
 
 def _of_segments(

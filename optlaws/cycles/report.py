@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from math import inf, pi
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -12,7 +13,7 @@ import numpy as np
 from optlaws.cycles.answers import PROVEN_BOUND, Answers
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
 from optlaws.cycles.optimisation.span_values import has_torque_limit
-from optlaws.cycles.placed import Place, limit_rows, overloads
+from optlaws.cycles.placed import Place, broken_limits, limit_rows, overloads
 from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, LimitTaken
 from optlaws.cycles.specification.load import is_process, read_load
 from optlaws.cycles.specified import USUAL_DEGREE
@@ -347,7 +348,8 @@ def cycle_differences(name: str, usual: Solved, chosen: Solved) -> Differences:
     )  # fmt: skip
     known = zip(dict.fromkeys(names), values, strict=True)
     rows = [Difference(each, objective_unit(chosen, each), *both) for each, both in known]
-    return Differences(name, rows, chosen.minimise if chosen.solutions else "")
+    least = chosen.minimise if chosen.solutions else ""
+    return Differences(name, rows, least, partial(broken_limits, usual, chosen.specification))
 
 
 def motion_table(

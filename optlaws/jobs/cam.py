@@ -63,6 +63,7 @@ from optlaws.cams.springs_and_flywheels import (
 )
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.optimisation.objectives import kind_of
+from optlaws.cycles.placed import broken_limits, limits_reached
 from optlaws.cycles.report import objective_unit
 from optlaws.cycles.specification.limits import LimitTaken
 from optlaws.cycles.specification.programme import is_optimal
@@ -173,7 +174,7 @@ class BarrelResult(NamedTuple):
         plan = known or _within(spec)
         cam = BarrelCam(plan, **spec.barrel.to_dict(), turning=spec.turning)
         sections, table = (
-            (barrel_section(cam, spec.limits), _laws_section(plan), barrel_differences(cam)),
+            (barrel_section(cam, spec.limits), _laws_section(plan, allowed=_allowed(spec)), barrel_differences(cam)),
             barrel_coordinates(cam, spec.rows, spec.cutter_radius),
         )
         data = _proven(spec, plan) | {name: value for each in sections for name, value in each.data.items()}
@@ -187,10 +188,16 @@ def _within(spec: BarrelProblemFile) -> Plan:
     except InfeasibleProblem as error:
         if spec.pressure_angle is None:
             raise
-        allowed = Amount(spec.allowed_velocity, "m/s", DIGITS)
-        text = "{} (the pressure_angle of {} at the bottom of the groove allows {}: {})"
         remedy = "make the cylinder larger, the groove shallower or the motion slower, or allow more"
-        raise InfeasibleProblem(sentence(text, error.args[0], spec.pressure_angle, allowed, remedy)) from error
+        raise InfeasibleProblem(sentence("{} ({}: {})", error.args[0], _allowed(spec), remedy)) from error
+
+
+def _allowed(spec: BarrelProblemFile) -> str:
+    """The velocity that the pressure angle of a barrel cam allows; blank without a limit of it."""
+    if spec.pressure_angle is None:
+        return ""
+    allowed = Amount(MILLI * spec.allowed_velocity, "mm/s", DIGITS)
+    return sentence("the pressure_angle of {} at the bottom of the groove allows {}", spec.pressure_angle, allowed)
 
 
 @dataclass(frozen=True)
@@ -378,10 +385,17 @@ class CamResult:
         if usual is None:
             return Section()
         if self.spec.best == "prime circle":
-            return cam_differences(USUAL, usual.values, chosen, "prime circle").section()
+            return cam_differences(USUAL, usual.values, chosen, "prime circle", self._broken_by_usual).section()
         least = objective_name(self.plan)
         both = usual.values | objective_value(usual.plan, least), chosen | objective_value(self.plan, least)
-        return cam_differences(USUAL, *both, least).section()
+        return cam_differences(USUAL, *both, least, self._broken_by_usual).section()
+
+    def _broken_by_usual(self) -> list[str]:
+        """What the cam with the usual law takes beyond the limits of the cycle and of the cam."""
+        if self.usual is None:
+            return []
+        of_cam = self.spec.limits.broken(self.usual.cam.extremes)
+        return [*broken_limits(self.usual.plan, self.plan.specification), *of_cam.values()]
 
     @kept_property
     def laws(self) -> Section:
@@ -659,14 +673,19 @@ def _rounded_up(value: float) -> float:
     return ceil(value * steps) / steps
 
 
-def _laws_section(plan: Plan, best: Sequence[Row] = ()) -> Section:
-    """What is least with its bound and its status, or rows that are `best`, the search space, given laws and limits."""
+def _laws_section(plan: Plan, best: Sequence[Row] = (), allowed: str = "") -> Section:
+    """What is least with its bound and its status, or rows that are `best`, the search space, given laws and limits.
+
+    Limits are followed by what is `allowed` by those of the cam.
+    """
     laws = {each.name: getattr(each.stretch.given, "law", OPTIMAL) for each in plan.peaks}
     given = [f"{name} {shortened(law)}" for name, law in laws.items() if law != OPTIMAL]
+    reached = limits_reached(plan)
     known = [
         *([f"Search space: {plan.search_space}."] if plan.search_space else []),
         *([f"Given laws: {'; '.join(given)}."] if given else []),
-        *([f"Limits: {'; '.join(map(_rounded, plan.limits_taken))}."] if plan.limits_taken else []),
+        *([f"Limits: {'; '.join(map(_rounded, reached))}."] if reached else []),
+        *([f"{capital(allowed)}."] if allowed else []),
     ]
     rows = list(best)
     if not rows and plan.solutions:
@@ -701,7 +720,7 @@ def _of_laws(plan: Plan) -> dict[str, Any]:
         "search_space": plan.search_space,
         "limits": [
             {"name": taken.name, "where": taken.where, "value": taken.value, "limit": taken.limit}
-            for taken in plan.limits_taken
+            for taken in limits_reached(plan)
         ],
     }
 

@@ -213,7 +213,8 @@ def _line(name: str, move: FastestMove) -> list[Cell]:
     stroke = f"{factor * move.stroke:.9g} {unit}"
     usual = None if move.beside is None else move.beside.values[0]
     beside = [None, None] if usual is None else [usual.usual, usual.text]
-    return [name, stroke, move.duration, *beside, below, best, price, move.status.value, ", ".join(map(quantity_name, move.binding))]
+    binding = ", ".join(map(quantity_name, move.binding))
+    return [name, stroke, move.duration, *beside, below, best, price, move.status.value, binding]
 
 
 def _add_move(page: Page, title: str, each: SoughtMove) -> None:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import isfinite
 from typing import Any, NamedTuple
 
 from optlaws.numbers import bounded
-from optlaws.sentences import Amount, quantity_name, sentence
+from optlaws.sentences import Amount, Sentence, capital, joined, quantity_name, sentence
 from optlaws.shown.report import ReportTable, Section
 from optlaws.shown.summary import PAGE_UNITS, Row
 
-_REMEDY = "give them a higher degree, or wider limits"
+_REMEDY = ": give them a higher degree"
+_DIGITS = 5
 _SAME = 5e-4  # of a value: a difference below it is no whole tenth of a per cent
 _FAR = 2.0  # times the usual value: what is above is remarked
 #: what limits of cycles and moves bound, as a peak, a root mean square or over the whole
@@ -68,6 +69,8 @@ class Differences:
         The quantities, each with both values; the objective first.
     objective
         The quantity that the laws were to have the least of; empty where none was minimised.
+    broken
+        Computes which of the limits that the laws keep the usual law breaks, each with its value and the limit.
 
     Examples
     --------
@@ -78,7 +81,9 @@ class Differences:
     >>> beside.rows[0].note
     '-10.5 %: modified sine has 24.8 W'
     >>> Differences("modified sine", values, "peak jerk").remarks
-    ('modified sine has 12.3 % less peak jerk than these laws: give them a higher degree, or wider limits',)
+    ('modified sine has 12.3 % less peak jerk than these laws: give them a higher degree',)
+    >>> Differences("modified sine", values, "peak jerk", lambda: ["rise: velocity, 1.2 m/s of 1 m/s"]).remarks
+    ('modified sine has 12.3 % less peak jerk than these laws, but breaks a limit: rise: velocity, 1.2 m/s of 1 m/s',)
     >>> Differences("modified sine", [Difference("jerk", "m/s³", 2630.0, 38293.0)], "energy").remarks
     ('jerk is 14.6 times that of modified sine: limit the jerk to less',)
     >>> times = Difference("least time", "s", 0.2, 0.1), Difference("jerk", "m/s³", 2630.0, 38293.0)
@@ -89,6 +94,7 @@ class Differences:
     usual: str
     values: Sequence[Difference]
     objective: str = ""
+    broken: Callable[[], Sequence[str]] = tuple
 
     def __post_init__(self) -> None:
         ordered = sorted(self.values, key=lambda each: each.name != self.objective)
@@ -104,8 +110,11 @@ class Differences:
                 # laws of a least time are quicker: what is greater for that needs no remark
                 in_one_time = each.unit != "s"
                 if change >= _SAME:
-                    less = 100.0 * change / (1.0 + change)
-                    remarks.append(f"{self.usual} has {less:.1f} % less {each.name} than these laws: {_REMEDY}")
+                    less = f"{self.usual} has {100.0 * change / (1.0 + change):.1f} % less {each.name} than these laws"
+                    broken = [*map(_shortly, self.broken())]
+                    limits = "a limit" if len(broken) == 1 else "limits"
+                    why = sentence(", but breaks {}: {}", limits, joined("; ", broken)) if broken else _REMEDY
+                    remarks.append(sentence("{}{}", less, why))
             elif 1.0 + change > _FAR:
                 far.append(each)
         if far and in_one_time:
@@ -156,8 +165,8 @@ class Differences:
         if not self.values:
             return Section()
         heading = f"Compared with {self.usual}"
-        note = "\n\n".join(f"{remark[0].upper()}{remark[1:]}." for remark in self.remarks)
-        return Section(heading, self.rows, self.table, self.data, note=note, digits=5)
+        note = joined("\n\n", (sentence("{}.", capital(remark)) for remark in self.remarks))
+        return Section(heading, self.rows, self.table, self.data, note=note, digits=_DIGITS)
 
 
 def _in_shown_unit(each: Difference) -> Difference:
@@ -165,6 +174,12 @@ def _in_shown_unit(each: Difference) -> Difference:
     unit, factor = PAGE_UNITS.get(each.unit, (each.unit, 1.0))
     usual, chosen = (None if value is None else factor * value for value in (each.usual, each.chosen))
     return each._replace(name=quantity_name(each.name), unit=unit, usual=usual, chosen=chosen)
+
+
+def _shortly(text: str) -> Sentence:
+    """A text with its amounts as pages write them."""
+    parts = text.parts if isinstance(text, Sentence) else (text,)
+    return Sentence(*(part.on_page(_DIGITS) if isinstance(part, Amount) else part for part in parts))
 
 
 def _note(change: str, usual: str, value: Amount) -> str:

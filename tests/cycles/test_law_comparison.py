@@ -171,6 +171,22 @@ def test_a_cycle_stands_beside_modified_sine_in_the_same_moves() -> None:
     assert "usual_law" not in sine.report().data
 
 
+def test_the_usual_law_is_better_by_the_limits_that_it_breaks_or_for_its_degree() -> None:
+    def remarks(**given: Any) -> list[str]:
+        cycle = Cycle([RISE, Dwell("90 deg"), RETURN, Dwell()], speed="200 rpm", **given)
+        return [row.value for row in cycle.summary() if "than these laws" in str(row.value)]
+
+    fast = Cycle([RISE, Dwell("90 deg"), RETURN, Dwell()], speed="200 rpm", limits={"velocity": "0.55 m/s"})
+    usual = usual_cycle(fast)
+    assert usual is not None
+    less = 100.0 * (1.0 - usual.peak(2) / fast.peak(2))
+    taken = f"velocity, {1e3 * usual.peak(1):.5g} mm/s of 550 mm/s"
+    better = f"modified sine has {less:.1f} % less acceleration than these laws"
+    assert remarks(limits={"velocity": "0.55 m/s"}) == [f"{better}, but breaks a limit: segment 3 (Return): {taken}"]
+    (poor,) = remarks(order=5, degree=3)
+    assert poor.endswith("% less acceleration than these laws: give them a higher degree")
+
+
 # --- the usual law ---
 
 

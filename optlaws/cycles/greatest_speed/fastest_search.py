@@ -373,8 +373,8 @@ class ForceRating:
         period = exp(falling_root(lambda logarithm: self._over(exp(logarithm)), begin, log(1.5), LEAST_SCALE_MET))
         if period == inf:
             raise InfeasibleProblem(
-                f"limits: no speed keeps the {quantity_name(self.name)} of {self.most:.9g}: the static load alone needs more: "
-                "allow more, or change the drive's spring, preload, gravity or friction"
+                f"limits: no speed keeps the {quantity_name(self.name)} of {self.most:.9g}: the static load alone "
+                "needs more: allow more, or change the drive's spring, preload, gravity or friction"
             )
         return period * (1.0 + 2.0 * LEAST_SCALE_MET)
 

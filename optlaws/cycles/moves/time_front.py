@@ -182,8 +182,8 @@ class TimeFront(JsonText):
             return before
         if not self.falls:
             raise InputError(
-                f"the {quantity_name(self.minimise)} may rise with the time, so there is no bound between the points of the "
-                f"front; the nearest are at {before.duration:.9g} s and {self.durations[i + 1]:.9g} s"
+                f"the {quantity_name(self.minimise)} may rise with the time, so there is no bound between the points "
+                f"of the front; the nearest are at {before.duration:.9g} s and {self.durations[i + 1]:.9g} s"
             )
         after, nu = self[i + 1], self.objective.nu
         slower = power(after.duration / time, nu) if nu else 1.0
@@ -461,8 +461,8 @@ def _at_motor(name: str, move: TimedMove, drive: Drive | None, start: NumberOrQu
         )
     if not (move.at_rest and move.problem.monotone):
         raise InputError(
-            f"minimise: the {quantity_name(name)} at a motor is that of laws from rest to rest which never turn back: limit "
-            'the velocity from 0, as in {"velocity": ("0 rad/s", "1 rad/s")}, or give fastest the drive'
+            f"minimise: the {quantity_name(name)} at a motor is that of laws from rest to rest which never turn back: "
+            'limit the velocity from 0, as in {"velocity": ("0 rad/s", "1 rad/s")}, or give fastest the drive'
         )
     free = replace(torque, peak=None, rms=1.0)
     if move.torque is not None and free != replace(move.torque, peak=None, rms=1.0):

@@ -161,7 +161,8 @@ class LimitTaken(NamedTuple):
 
     def __str__(self) -> str:
         value, limit = self.value_text or f"{self.value:.6g}", self.text or f"{self.limit:.6g}"
-        return sentence("{}{}, {} of {}", f"{self.where}: " if self.where else "", quantity_name(self.name), value, limit)
+        where = f"{self.where}: " if self.where else ""
+        return sentence("{}{}, {} of {}", where, quantity_name(self.name), value, limit)
 
 
 def read_limits(entries: Mapping[str, Any], axis: str, where: str, load: Load = None) -> Limits:

@@ -236,15 +236,19 @@ def test_a_barrel_keeps_its_pressure_angle_or_says_where_it_is_steep(tmp_path: P
     assert "where the roller moves back and" in remark
     assert remark.endswith("or give pressure_angle, within which the laws are sought then.")
     # the laws take the limit to the full, and nothing is left to be said
-    allowed = round(float(max(steepest)) - 1.0, 3)
+    allowed = round(float(min(steepest)) - 1.0, 3)
     page, angles, file = cam(f"{allowed} deg")
     assert np.degrees(max(-angles["least"]["low"], angles["greatest"]["high"])) == pytest.approx(allowed, rel=1e-7)
     assert "The pressure angle at the bottom" not in page
+    # in both motions, as the velocity that it allows
+    (most,) = re.findall(rf"The pressure_angle of {allowed} deg at the bottom of the groove allows (.*)\.\n", page)
+    limits = "; ".join(f"segment {name}: velocity, {most} of {most}" for name in ("1 (Rise)", "3 (Return)"))
+    assert f"\nLimits: {limits}.\n" in page
     assert not [claim for each in verify_all(file).values() for claim in each.unchecked]
     # a law that is given may be steeper
     given = BARREL.replace('by = "35 mm"', 'by = "35 mm"\nlaw = "345"').replace('"return"', '"return"\nlaw = "345"')
     assert "more than the allowed 20 deg: make the cylinder larger." in cam("20 deg", given)[0]
-    with pytest.raises(InfeasibleProblem, match=r"the pressure_angle of 9 deg .* allows [\d.]+ m/s: make the cylinder"):
+    with pytest.raises(InfeasibleProblem, match=r"pressure_angle of 9 deg .* allows [\d.]+ mm/s: make the cylinder"):
         cam("9 deg")
 
 
