@@ -265,7 +265,13 @@ def bodies_of(pivoted: Sequence[str], coupled: Sequence[str], sliding: Sequence[
     types = {**dict.fromkeys(pivoted, turning), **dict.fromkeys(coupled, alone), **dict.fromkeys(sliding, moved)}
     usual = {turning: "0.01 kg m^2", moved: "5 kg", alone: None}
     links = {
-        name: entry(each, f"Of the {name}.", default=None, label=f"{name} body", example=usual[each])
+        name: entry(
+            each,
+            f"Of the {name}{' link' * (name in {'upper', 'lower'})}.",
+            default=None,
+            label=f"{name} body",
+            example=usual[each],
+        )
         for name, each in types.items()
     }
     return TableOf("body", links, keep=lambda given: {name: given.get(name, Body()) for name in links})

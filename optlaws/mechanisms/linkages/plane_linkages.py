@@ -165,8 +165,9 @@ def _turned(arcs: Iterable[tuple[float, float]], ends: tuple[float, float]) -> l
 
 
 class FourBarLinks:
-    """Crank, coupler and rocker of a four-bar over the crank's angle x from the frame, in closed form; lengths in m.
+    """Crank, coupler and rocker of a four-bar over the crank's angle x from the frame, in closed form.
 
+    Their lengths, and that of the frame, are in m, by the names that errors give them.
     With the distance of the crank's pin from the rocker's pivot, R = a² + d² - 2 a d cos x its square, and
     P = (R + b² - c²)/2, H² = b² R - P², the pins and angular velocities are quotients of polynomials in cos x and sin x
     and of H alone: the angle of the rocker has the slope (a - d cos x + d sin x P/H) a/R.
@@ -177,9 +178,9 @@ class FourBarLinks:
         If it cannot be assembled everywhere in a range of x.
     """
 
-    def __init__(self, lengths: Sequence[float], branch: FourBarBranch, ends: tuple[float, float]) -> None:
-        a, b, c, d = lengths
-        _check_assembly({"crank": a, "coupler": b, "rocker": c, "frame": d}, ends)
+    def __init__(self, lengths: dict[str, float], branch: FourBarBranch, ends: tuple[float, float]) -> None:
+        a, b, c, d = lengths.values()
+        _check_assembly(lengths, ends)
         self.ends, x = ends, Traced(Name("x"))
         self.sine, self.cosine = np.sin(x), np.cos(x)
         self.base = d - a * self.cosine, -a * self.sine
@@ -283,7 +284,8 @@ class FourBar(LinkageKind, kind="four bar"):
 
     @property
     def mechanism(self) -> Mechanism:
-        linkage = FourBarLinks((self.crank, self.coupler, self.rocker, self.frame), self.branch, self.ends)
+        lengths = {name: getattr(self, name) for name in ("crank", "coupler", "rocker", "frame")}
+        linkage = FourBarLinks(lengths, self.branch, self.ends)
         return self._linkage(
             {"crank": linkage.crank, "coupler": linkage.coupler, "rocker": linkage.rocker},
             self.bodies,
@@ -308,7 +310,7 @@ def _check_assembly(lengths: dict[str, float], ends: tuple[float, float]) -> Non
     # the distance of the crank's pin from the rocker's pivot is sqrt(middle - swing cos x)
     middle, swing = crank**2 + frame**2, 2.0 * crank * frame
     stretched, folded = ((middle - reach**2) / swing for reach in (coupler + rocker, coupler - rocker))
-    unreached = {}
+    in_line, unreached = " and ".join([*lengths][1:3]), {}
     if stretched >= -1.0:
         edge = acos(min(stretched, 1.0))
         unreached["stretched"] = edge, 2.0 * pi - edge
@@ -318,8 +320,8 @@ def _check_assembly(lengths: dict[str, float], ends: tuple[float, float]) -> Non
     for how, arc in unreached.items():
         for first, last in _turned([arc], ends):
             raise InputError(
-                f"the crank reaches no angle from {degrees(first):.6g} to {degrees(last):.6g} deg: coupler and "
-                f"rocker are in line, {how}, at these dead centres, beyond which the crank cannot go, and the "
+                f"the crank reaches no angle from {degrees(first):.6g} to {degrees(last):.6g} deg: "
+                f"{in_line} are in line, {how}, at these dead centres, beyond which the crank cannot go, and the "
                 f"range is {degrees(ends[0]):.6g} to {degrees(ends[1]):.6g} deg. {_grashof(lengths)}; take a range "
                 "in over= between dead centres, or other lengths"
             )
@@ -398,8 +400,9 @@ class Toggle(LinkageKind, kind="toggle"):
 
     @property
     def mechanism(self) -> Mechanism:
-        *lengths, lower, frame = (self.lengths[name] for name in LENGTHS)
-        linkage = FourBarLinks((*lengths, frame), self.branch, self.ends)
+        crank, rod, upper_link, lower, frame = (self.lengths[name] for name in LENGTHS)
+        driving = {"crank": crank, "rod": rod, "upper link": upper_link, "frame": frame}
+        linkage = FourBarLinks(driving, self.branch, self.ends)
         along, across = linkage.rocker_along(self.direction)
         _check_knee(linkage, along, across, lower)
         height: Traced = np.sqrt(lower**2 - across**2)

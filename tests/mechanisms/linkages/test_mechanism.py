@@ -202,6 +202,8 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: four_bar(0.2, 0.15, 0.2, 0.3, bodies={}), r"reaches no angle from 86\.4167 to 273\.583 deg: .* Grashof"),
     (lambda: toggle({"crank": 1.0}, bodies={}), "a toggle needs rod, upper, lower, frame too"),
     (lambda: toggle({**KNEE, "lower": "50 mm"}, bodies={}), "lower link of 0.05 m does not reach the ram's way at"),
+    (lambda: toggle({**KNEE, "upper": "1 m"}, bodies={}), "the links do not close: the upper link of 1 m is as long"),
+    (lambda: toggle({**KNEE, "upper": "60 mm"}, bodies={}), "deg: rod and upper link are in line, stretched"),
     (lambda: toggle(KNEE, direction="-90 deg", bodies={}), "behind the upper link's pivot"),
     (lambda: mechanism_of_motion(lambda x: x if x > 1 else 0, {"q1": "1 kg"}, over=(0, 1)), "compares .* give a table"),
     (lambda: mechanism_of_motion(np.floor, {"q1": "1 kg"}, over=(0, 1)), "numpy.floor"),
