@@ -1,10 +1,9 @@
 """The lower bound: what it says is checked from eq. 8 in exact rational arithmetic, and nothing beats it."""
 
-import copy
 import json
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -79,7 +78,6 @@ def shape(problem: Problem) -> str:
 
 every_problem = pytest.mark.parametrize("problem", PROBLEMS, ids=shape)
 every_plain = pytest.mark.parametrize("problem", PLAIN, ids=shape)
-one_of = st.sampled_from(PROBLEMS)
 
 
 @cache
@@ -211,32 +209,97 @@ def test_json_gives_an_equal_certificate_whatever_bound_is_written(problem: Prob
 ROUNDING = 1 + 1e-13
 
 
-def altered(certificate: Certificate, index: int, change: Callable[[Contact], Contact]) -> Certificate:
-    contacts = list(certificate.contacts)
-    contacts[index] = change(contacts[index])
-    return certificate.with_leaf(contacts=tuple(contacts))
-
-
+Forgery = Callable[[Certificate], Certificate]
 NAMES = ["C", "C_plus", "C_minus", "J", "snap", "D", "b", "chord", "ratio", "forward", "rms_c", "B at most"]
 NAMES += ["B at least", "J at most", "tangent", "b / sqrt(2k)", "root of D", "part 1 of max(0.25*C, 0.03125*J)", ""]
-#: what becomes of a contact
-CHANGES: dict[str, st.SearchStrategy[Callable[[Contact], Contact]]] = {
-    "multiplier": st.floats(-3.0, 3.0).map(lambda factor: lambda c: replace(c, multiplier=c.multiplier * factor)),
-    "place": st.floats(0.0, 1.0).map(lambda k: lambda c: replace(c, k=k)),
-    "place beside": st.floats(-1e-3, 1e-3).map(lambda step: lambda c: replace(c, k=min(max(c.k + step, 0.0), 1.0))),
-    "name": st.sampled_from(NAMES).map(lambda name: lambda c: replace(c, constraint=name)),
-    "sign": st.just(lambda c: replace(c, sign=-c.sign)),
+SHARES, PLACES = st.floats(-3.0, 3.0), st.floats(0.0, 1.0)
+
+
+def changed(which: int, change: Callable[[Contact], Contact]) -> Forgery:
+    """With another contact in place of one."""
+
+    def forge(proof: Certificate) -> Certificate:
+        contacts = list(proof.contacts)
+        contacts[which % len(contacts)] = change(contacts[which % len(contacts)])
+        return proof.with_leaf(contacts=tuple(contacts))
+
+    return forge
+
+
+def turned(contact: Contact, seed: int, size: float) -> Contact:
+    """With another direction, where it has one."""
+    step = size * np.random.default_rng(seed).normal(size=len(contact.direction))
+    return replace(contact, direction=tuple((np.array(contact.direction) + step).tolist()))
+
+
+def weighed(which: int, factor: float, shift: float, more: list[float]) -> Forgery:
+    """With an equation weighed otherwise, and more equations."""
+
+    def forge(proof: Certificate) -> Certificate:
+        weights = list(proof.equations)
+        if weights:
+            weights[which % len(weights)] = weights[which % len(weights)] * factor + shift
+        return proof.with_leaf(equations=(*weights, *more))
+
+    return forge
+
+
+def of_kind(program: str) -> Forgery:
+    """As a proof of another kind."""
+    return lambda proof: Certificate.of_leaf(
+        proof.problem, proof.contacts, proof.equations, program, proof.tangent or 0.0
+    )
+
+
+def a_contact(change: st.SearchStrategy[Callable[[Contact], Contact]]) -> st.SearchStrategy[Forgery]:
+    return st.builds(changed, st.integers(0, 30), change)
+
+
+INVENTED = st.builds(
+    Contact,
+    st.sampled_from([name for name in NAMES if name != "rms_c"]),
+    st.sampled_from([1.0, -1.0]),
+    PLACES,
+    st.floats(-10.0, 10.0, allow_subnormal=False),
+)
+#: what becomes of a certificate
+FORGERIES: dict[str, st.SearchStrategy[Forgery]] = {
+    "multiplier": a_contact(SHARES.map(lambda share: lambda c: replace(c, multiplier=c.multiplier * share))),
+    "place": a_contact(PLACES.map(lambda k: lambda c: replace(c, k=k))),
+    "place beside": a_contact(
+        st.floats(-1e-3, 1e-3).map(lambda step: lambda c: replace(c, k=min(max(c.k + step, 0.0), 1.0)))
+    ),
+    "name": a_contact(st.sampled_from(NAMES).map(lambda name: lambda c: replace(c, constraint=name))),
+    "sign": a_contact(st.just(lambda c: replace(c, sign=-c.sign))),
+    "direction": a_contact(
+        st.tuples(st.integers(0, 2**32 - 1), st.floats(0.0, 3.0)).map(lambda by: lambda c: turned(c, *by))
+    ),
+    "equations": st.builds(weighed, st.integers(0, 30), SHARES, SHARES, st.lists(st.just(3.0), max_size=1)),
+    "tangent": st.floats(-10.0, 10.0).map(lambda tangent: lambda proof: replace(proof, tangent=tangent)),
+    "kind": st.sampled_from(["objective", "relaxed", "violation", "wishful"]).map(of_kind),
+    "invented contacts": st.builds(
+        lambda contacts, weights: lambda proof: proof.with_leaf(contacts=tuple(contacts), equations=tuple(weights)),
+        st.lists(INVENTED, min_size=1, max_size=6),
+        st.lists(st.floats(-10.0, 10.0), max_size=2),
+    ),
+}
+#: whose contacts have directions, and whose power has a tangent
+OF_KIND = {
+    "direction": [p for p in PROBLEMS if "rms" in str(p.minimise)],
+    "tangent": [p for p in PROBLEMS if not p.convex],
 }
 
 
-@pytest.mark.parametrize("kind", CHANGES)
-@given(problem=one_of, which=st.integers(0, 30), data=st.data())
-def test_a_contact_that_is_changed_proves_nothing_false(
-    kind: str, problem: Problem, which: int, data: st.DataObject
-) -> None:
-    solution = solution_of(problem)
-    index = which % len(solution.certificate.contacts)
-    forged = altered(solution.certificate, index, data.draw(CHANGES[kind]))
+@pytest.mark.parametrize("kind", FORGERIES)
+@given(data=st.data())
+def test_a_forged_certificate_proves_nothing_false(kind: str, data: st.DataObject) -> None:
+    problem = data.draw(st.sampled_from(OF_KIND.get(kind, PROBLEMS)))
+    solution, forge = solution_of(problem), data.draw(FORGERIES[kind])
+    try:
+        forged = forge(solution.certificate)
+    except InputError:
+        assert kind == "kind"
+        return
     assert forged.bound <= solution.objective * ROUNDING
     assert not forged.proves_infeasible
 
@@ -257,53 +320,6 @@ def test_without_one_contact_it_proves_nothing_false(problem: Problem) -> None:
         assert not nothing.proves_infeasible
 
 
-@given(problem=one_of, which=st.integers(0, 30), factor=st.floats(-3.0, 3.0), shift=st.floats(-3.0, 3.0))
-def test_an_equation_that_is_weighed_otherwise_proves_nothing_false(
-    problem: Problem, which: int, factor: float, shift: float
-) -> None:
-    solution = solution_of(problem)
-    weights = list(solution.certificate.equations)
-    if weights:
-        i = which % len(weights)
-        weights[i] = weights[i] * factor + shift
-    forged = solution.certificate.with_leaf(equations=tuple(weights))
-    assert forged.bound <= solution.objective * ROUNDING
-    assert solution.certificate.with_leaf(equations=()).bound <= solution.objective * ROUNDING
-    assert solution.certificate.with_leaf(equations=(*weights, 3.0)).bound <= solution.objective * ROUNDING
-
-
-@given(problem=st.sampled_from([p for p in PROBLEMS if not p.convex]), tangent=st.floats(-10.0, 10.0))
-def test_another_tangent_proves_nothing_false(problem: Problem, tangent: float) -> None:
-    solution = solution_of(problem)
-    assert replace(solution.certificate, tangent=tangent).bound <= solution.objective * ROUNDING
-
-
-@given(seed=st.integers(0, 2**32 - 1), size=st.floats(0.0, 3.0))
-def test_another_direction_of_an_rms_proves_nothing_false(seed: int, size: float) -> None:
-    solution = solution_of(Problem(B=1.641, order=4, basis=Chebyshev(9), minimise="rms_c"))
-    (index,) = (i for i, c in enumerate(solution.certificate.contacts) if c.constraint == "rms_c")
-    step = np.random.default_rng(seed).normal(size=len(solution.certificate.contacts[index].direction))
-
-    def turned(contact: Contact) -> Contact:
-        return replace(contact, direction=tuple((np.array(contact.direction) + size * step).tolist()))
-
-    assert altered(solution.certificate, index, turned).bound <= solution.objective * ROUNDING
-
-
-@pytest.mark.sample(2)
-@pytest.mark.parametrize("program", ["objective", "relaxed", "violation", "wishful"])
-@every_problem
-def test_as_a_proof_of_another_kind_it_proves_nothing_false(problem: Problem, program: str) -> None:
-    solution = solution_of(problem)
-    try:
-        proof = solution.certificate
-        forged = Certificate.of_leaf(proof.problem, proof.contacts, proof.equations, program, proof.tangent or 0.0)
-        assert forged.bound <= solution.objective * ROUNDING
-        assert not forged.proves_infeasible
-    except InputError:
-        assert program == "wishful"
-
-
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("problem", INFEASIBLE, ids=shape)
 def test_a_proof_of_infeasibility_says_nothing_of_a_feasible_problem(problem: Problem) -> None:
@@ -322,30 +338,6 @@ def test_with_another_b_it_speaks_of_another_problem_truly(problem: Problem, B: 
     except (InfeasibleProblem, SolverFailure):
         return
     assert forged.bound <= true * (1 + 1e-12)
-
-
-@given(
-    problem=one_of,
-    names=st.lists(st.sampled_from(NAMES), min_size=1, max_size=6),
-    weights=st.lists(st.floats(-10.0, 10.0), max_size=2),
-    data=st.data(),
-)
-def test_invented_contacts_prove_nothing_false(
-    problem: Problem, names: list[str], weights: list[float], data: st.DataObject
-) -> None:
-    contacts = tuple(
-        Contact(
-            name,
-            data.draw(st.sampled_from([1.0, -1.0])),
-            data.draw(st.floats(0.0, 1.0)),
-            data.draw(st.floats(-10.0, 10.0, allow_subnormal=False)),
-        )
-        for name in names
-        if name != "rms_c"
-    )
-    forged = solution_of(problem).certificate.with_leaf(contacts=contacts, equations=tuple(weights))
-    assert forged.bound <= solution_of(problem).objective * ROUNDING
-    assert not forged.proves_infeasible
 
 
 def test_forward_contacts_count_only_where_b_at_least_0_is_asked() -> None:
@@ -374,32 +366,6 @@ def test_forward_contacts_count_only_where_b_at_least_0_is_asked() -> None:
 def test_a_contact_that_makes_no_sense_is_refused(wrong: Callable[[], Contact]) -> None:
     with pytest.raises(InputError):
         wrong()
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        lambda d: d.pop("contacts"),
-        lambda d: d.pop("problem"),
-        lambda d: d.pop("equations"),
-        lambda d: d.update(equations=["much"]),
-        lambda d: d.update(equations=[float("nan")]),
-        lambda d: d.update(tangent=float("inf")),
-        lambda d: d.update(tangent="steep"),
-        lambda d: d.update(program="wishful"),
-        lambda d: d.update(contacts=[{}]),
-        lambda d: d.update(contacts=[{"constraint": "C"}]),
-        lambda d: d.update(problem={"ordr": 3}),
-        lambda d: d["contacts"][0].update(direction=None),
-        lambda d: d["contacts"][0].update(k="here"),
-        lambda d: d["contacts"][0].update(weight=1.0),
-    ],
-)
-def test_data_that_is_no_certificate_is_refused(change: Callable[[dict[str, Any]], object]) -> None:
-    data = json.loads(json.dumps(solution_of(PLAIN[0]).certificate.to_dict()))
-    change(data)
-    with pytest.raises(InputError):
-        Certificate.from_dict(data)
 
 
 @pytest.mark.parametrize("data", [None, 3, "certificate", [], {}])
@@ -470,48 +436,6 @@ def test_the_mean_of_a_law_and_its_mirror_image_is_no_worse() -> None:
     one, mean = (law_from_z(BoundaryConditions.rest(4), part, Chebyshev(9)) for part in (z, (z + mirrored) / 2))
     assert mean.peak(2).value <= one.peak(2).value
     assert mean.b(0.5) == pytest.approx(one.b(0.5), rel=1e-13)
-
-
-HUGE = 10**400
-JUNK = [HUGE, -HUGE, "a", None, [], {}, [[1.0]], {"k": 1.0}, float("nan"), float("inf"), True]
-
-
-def _places(data: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
-    for key, value in data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ():
-        yield (*path, key)
-        yield from _places(value, (*path, key))
-
-
-@pytest.mark.parametrize("kind", ["certificate", "power_certificate"])
-def test_junk_anywhere_in_a_certificate_is_an_input_error_or_proves_no_more(kind: str) -> None:
-    solution = synthesize(Problem(B=1.6, order=2, basis=Chebyshev(3), minimise="D"), bound="tight")
-    true = json.loads(json.dumps(solution.to_dict()[kind]))
-    steps = true.get("steps")
-    if steps:
-        # the first ones have all that the others have
-        true["steps"] = [*{tuple(sorted(step)): step for step in steps}.values()]
-    for path in _places(true):
-        if path[0] in {"problem", "bound"}:
-            continue
-        for junk in JUNK:
-            data = copy.deepcopy(true)
-            place = data
-            for key in path[:-1]:
-                place = place[key]
-            place[path[-1]] = junk
-            try:
-                made = Certificate.from_dict(data)
-            except InputError:
-                continue
-            assert made.bound <= solution.objective, (path, junk)
-
-
-@pytest.mark.parametrize("junk", [HUGE, -HUGE, "a", float("nan")])
-@pytest.mark.parametrize("name", ["B", "inflexion", "degree"])
-def test_a_certificate_of_no_problem_is_an_input_error(name: str, junk: object) -> None:
-    data = synthesize(Problem(B=1.859, order=4, basis=Chebyshev(5))).certificate.to_dict()
-    with pytest.raises(InputError):
-        Certificate.from_dict({**data, "problem": {**data["problem"], name: junk}})
 
 
 @pytest.mark.parametrize("multiplier", [1e300, 1e308])
