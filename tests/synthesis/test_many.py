@@ -44,14 +44,65 @@ def same(found: object, alone: Solution) -> None:
     assert found.certificate.bound <= found.objective * (1.0 + 1e-12)
 
 
-def test_each_is_what_its_problem_gives_alone() -> None:
-    items = list(synthesize_many(iter(KINDS), errors="return"))
+each_way = pytest.mark.parametrize("solve", [synthesize_many, sweep])
+
+
+@each_way
+def test_each_is_what_its_problem_gives_alone_and_errors_are_results_where_asked(solve: Any) -> None:
+    items = list(solve(iter(KINDS), errors="return"))
     assert len(items) == len(KINDS)
-    assert isinstance(items[1], InfeasibleProblem)
-    assert items[1].problem == KINDS[1]
+    error = items[1]
+    assert isinstance(error, InfeasibleProblem)
+    assert error.problem == KINDS[1]
+    assert error.proof is not None
+    assert error.__traceback__ is None
     for one, problem in zip(items, KINDS, strict=True):
         if problem is not KINDS[1]:
             same(one, synthesize(problem))
+
+
+@each_way
+def test_an_error_is_raised_in_its_turn_unless_asked_for(solve: Any) -> None:
+    solutions = solve(KINDS)
+    assert next(solutions).problem == KINDS[0]
+    with pytest.raises(InfeasibleProblem):
+        next(solutions)
+
+
+@each_way
+def test_what_is_no_problem_spoils_its_own_place_only(solve: Any) -> None:
+    items = list(solve([FIRST, 1.6, None, FIRST], errors="return"))
+    assert [type(one) for one in items] == [Solution, InputError, InputError, Solution]
+    assert "takes a Problem, got float" in str(items[1])
+
+
+@each_way
+def test_wrong_options_are_refused_at_once(solve: Any) -> None:
+    with pytest.raises(InputError, match="did you mean 'return'"):
+        solve([], errors="returns")
+    with pytest.raises(InputError, match="bound"):
+        solve([], bound="tigt")
+    assert list(solve([])) == []
+
+
+@pytest.mark.parametrize(("solve", "first"), [(synthesize_many, 64), (sweep, 1)])
+def test_problems_are_taken_as_they_are_needed(solve: Any, first: int) -> None:
+    taken = 0
+
+    def problems() -> Iterator[Problem]:
+        nonlocal taken
+        while True:
+            taken += 1
+            yield FIRST
+
+    next(solve(problems()))
+    assert taken == first
+
+
+def test_a_wrong_number_of_an_array_spoils_its_own_place_only() -> None:
+    array = ProblemArray(B=np.array([1.6, np.nan, 1.7]), order=4)
+    items = list(synthesize_many(array, errors="return"))
+    assert [type(one) for one in items] == [Solution, InputError, Solution]
 
 
 def test_results_depend_neither_on_the_order_nor_on_the_batch() -> None:
@@ -64,46 +115,6 @@ def test_results_depend_neither_on_the_order_nor_on_the_batch() -> None:
         same(next(synthesize_many([problems[i]])), inorder[i])
 
 
-def test_an_error_is_raised_in_its_turn() -> None:
-    solutions = synthesize_many(KINDS)
-    assert next(solutions).problem == KINDS[0]
-    with pytest.raises(InfeasibleProblem):
-        next(solutions)
-
-
-def test_what_is_no_problem_spoils_its_own_place_only() -> None:
-    wrong: list[Any] = [FIRST, 1.6, None, FIRST]
-    items = list(synthesize_many(wrong, errors="return"))
-    assert [type(one) for one in items] == [Solution, InputError, InputError, Solution]
-    assert "takes a Problem, got float" in str(items[1])
-    array = ProblemArray(B=np.array([1.6, np.nan, 1.7]), order=4)
-    items = list(synthesize_many(array, errors="return"))
-    assert [type(one) for one in items] == [Solution, InputError, Solution]
-
-
-def test_wrong_options_are_refused_at_once() -> None:
-    with pytest.raises(InputError, match="did you mean 'return'"):
-        synthesize_many([], errors="returns")  # type: ignore[call-overload] # the wrong one is the point
-    with pytest.raises(InputError, match="bound"):
-        synthesize_many([], bound="tigt")  # type: ignore[call-overload] # the wrong one is the point
-    assert list(synthesize_many([])) == []
-
-
-def test_problems_are_taken_as_they_are_needed() -> None:
-    taken = 0
-
-    def problems() -> Iterator[Problem]:
-        nonlocal taken
-        while True:
-            taken += 1
-            yield FIRST
-
-    solutions = synthesize_many(problems())
-    for _ in range(3):
-        next(solutions)
-    assert taken == 64
-
-
 def test_a_sweep_over_a_list_is_the_same_as_one_by_one() -> None:
     problems = [replace(FIRST, B=B) for B in (1.6, 1.1, 1.65, 1.7)]
     for one, other in zip(sweep(problems, errors="return"), sweep(iter(problems), errors="return"), strict=True):
@@ -111,56 +122,6 @@ def test_a_sweep_over_a_list_is_the_same_as_one_by_one() -> None:
             same(one, other)
         else:
             assert type(one) is type(other)
-
-
-# --- sweeps ---
-
-
-def test_errors_are_raised_unless_asked_for() -> None:
-    solutions = sweep(replace(FIRST, B=B) for B in (1.6, 1.1, 1.7))
-    assert next(solutions).problem.B == 1.6
-    with pytest.raises(InfeasibleProblem):
-        next(solutions)
-
-
-def test_errors_are_results_where_that_is_asked() -> None:
-    problems = [replace(FIRST, B=B) for B in (1.1, 1.6, 1.2, 1.7)]
-    items = list(sweep(problems, errors="return"))
-    assert [type(one) for one in items] == [InfeasibleProblem, Solution, InfeasibleProblem, Solution]
-    for one, problem in zip(items, problems, strict=True):
-        if isinstance(one, Solution):
-            assert one.problem == problem
-            assert one.objective == pytest.approx(synthesize(problem).objective, rel=1e-11)
-        else:
-            assert isinstance(one, InfeasibleProblem)
-            assert one.problem == problem
-            assert one.proof is not None
-            assert one.__traceback__ is None
-
-
-def test_what_is_no_problem_spoils_its_own_place_of_a_sweep() -> None:
-    wrong: list[Any] = [FIRST, None, FIRST]
-    items = list(sweep(wrong, errors="return"))
-    assert [type(one) for one in items] == [Solution, InputError, Solution]
-    assert "takes a Problem, got NoneType" in str(items[1])
-
-
-def test_the_option_is_checked_at_once() -> None:
-    with pytest.raises(InputError, match="did you mean 'return'"):
-        sweep([], errors="returns")  # type: ignore[call-overload] # the wrong one is the point
-
-
-def test_problems_are_taken_one_by_one() -> None:
-    taken = []
-
-    def problems() -> Iterator[Problem]:
-        for B in (1.6, 1.7, 1.8):
-            taken.append(B)
-            yield replace(FIRST, B=B)
-
-    solutions = sweep(problems())
-    next(solutions)
-    assert taken == [1.6]
 
 
 def test_laws_of_least_power_on_a_line_are_found_together() -> None:

@@ -135,10 +135,6 @@ def test_a_start_in_the_other_basis_serves_as_well() -> None:
     assert synthesize(problem, start=start).objective == pytest.approx(synthesize(problem).objective, rel=1e-11)
 
 
-def test_a_sweep_over_nothing_is_nothing() -> None:
-    assert list(sweep([])) == []
-
-
 # --- symmetry and degree ---
 
 
