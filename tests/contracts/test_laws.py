@@ -33,9 +33,10 @@ from optlaws import (
 )
 from tests.contracts.kinds import kinds
 from tests.internals.balancing import LoaderLaw, PartSegment
-from tests.internals.laws import Curve, FractionalSegment, HarmonicSegment, PolynomialSegment, PowerSegment, SineSegment
+from tests.internals.laws import Curve, FractionalSegment, PolynomialSegment, PowerSegment, SineSegment
 from tests.internals.mechanisms import MassMotion
 from tests.laws.examples import EXAMPLES, cut_sine, free_function_law
+from tests.laws.many_digits import highest, stretches
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(60)
 DENSE = np.linspace(0.0, 1.0, 20001)
@@ -514,45 +515,23 @@ K = np.linspace(0.0, 1.0, 203)[1:-1] + 1e-3 / np.pi  # none of them a break
 def test_mirrored_reversed_and_scaled_laws_are_what_their_definitions_say(law: MotionLaw) -> None:
     if not can_be_changed(law):
         return
-    size = max(1.0, float(np.abs(law.a(K)).max()))
     drifting, mirrored, turned = with_end_velocity(law, 0.3), mirrored_law(law), reversed_law(law)
-    for nu in (0, 1):
-        room = 1e-12 * size * 30.0**nu
-        assert drifting(K, nu) == pytest.approx(0.7 * law(K, nu) + 0.3 * (K if nu == 0 else 1.0), abs=room)
-        assert mirrored(K, nu) == pytest.approx((-1) ** nu * law(1.0 - K, nu), abs=max(room, 1e-10 * nu))
-    assert turned.a(K) == pytest.approx(law.a(0.0) + law.a(1.0) - law.a(1.0 - K), abs=1e-12 * size)
-    assert mirrored_law(mirrored).a(K) == pytest.approx(law.a(K), abs=1e-12 * size)
-    assert reversed_law(turned).a(K) == pytest.approx(law.a(K), abs=1e-12 * size)
-    assert mirrored.power_peak().value == pytest.approx(law.power_peak().value, rel=1e-9, abs=1e-12)
-    assert with_end_velocity(law, 0.0).constants.C.value == pytest.approx(law.constants.C.value, rel=1e-12)
-
-
-def exact(law: PiecewiseLaw, i: int, nu: int) -> Any:
-    """Derivative of order nu >= 2 of a segment of a law by mpmath, of the time since its start."""
-    segment, length = law.segments[i], mpmath.mpf(law.breaks[i + 1]) - mpmath.mpf(law.breaks[i])
-
-    def c(s: Any) -> Any:
-        if isinstance(segment, PolynomialSegment):
-            x = 2 * s / length - 1
-            return mpmath.fsum(value * mpmath.chebyt(n, x) for n, value in enumerate(segment.acceleration))
-        if isinstance(segment, SineSegment | HarmonicSegment):
-            sines = (segment,) if isinstance(segment, SineSegment) else segment.sines
-            return mpmath.fsum(
-                sine.amplitude * mpmath.sin(sine.frequency * s + sine.phase)
-                + mpmath.fsum(power * s**n for n, power in enumerate(sine.powers))
-                for sine in sines
-            )
-        if isinstance(segment, PowerSegment):
-            return (
-                (segment.b1**2 - segment.b0**2)
-                / (2 * length)
-                / mpmath.sqrt(segment.b0**2 + (segment.b1**2 - mpmath.mpf(segment.b0) ** 2) * s / length)
-            )
-        assert isinstance(segment, FractionalSegment)
-        v = segment.first + (mpmath.mpf(segment.last) - segment.first) * s / length
-        return v**segment.exponent * mpmath.fsum(q * v**n for n, q in enumerate(segment.coefficients))
-
-    return c if nu == 2 else lambda s: mpmath.diff(c, s, nu - 2)
+    sizes = [max(1.0, float(np.abs(law(K, nu)).max())) for nu in range(5)]
+    for nu in range(5):
+        room = (1e-12, 1e-10, 1e-12, 1e-11, 1e-9)[nu] * sizes[nu]
+        drift = 0.3 * K if nu == 0 else 0.3 * (nu == 1)
+        assert drifting(K, nu) == pytest.approx(0.7 * law(K, nu) + drift, abs=room)
+        back = (-1) ** nu * law(1.0 - K, nu)
+        assert mirrored(K, nu) == pytest.approx(back, abs=room)
+        assert turned(K, nu) == pytest.approx((law.a(0.0) + law.a(1.0) if nu == 0 else 0.0) - back, abs=room)
+    for change, changed in ((mirrored_law, mirrored), (reversed_law, turned)):
+        assert change(changed).a(K) == pytest.approx(law.a(K), abs=1e-12 * sizes[0])
+        assert changed.power_peak().value == pytest.approx(law.power_peak().value, rel=1e-9, abs=1e-12)
+        for nu in (1, 2, 3):
+            assert changed.peak(nu).value == pytest.approx(law.peak(nu).value, rel=1e-9, abs=1e-12)
+    assert drifting.peak(2).value == pytest.approx(0.7 * law.peak(2).value, rel=1e-9)
+    if law in EXAMPLES.values():
+        assert {type(drifting), type(mirrored), type(turned)} == {type(law)}
 
 
 @pytest.mark.sample(9, kind=shape)
@@ -562,25 +541,6 @@ def test_peaks_are_those_of_many_digits(name: str, nu: int) -> None:
     law = LAWS[name]
     assert isinstance(law, PiecewiseLaw)
     with mpmath.workdps(30):
-        greatest = []
-        for i, (low, high) in enumerate(itertools.pairwise(law.breaks)):
-            f = exact(law, i, nu)
-            length = mpmath.mpf(high) - mpmath.mpf(low)
-            # differences of mpmath need room at either end
-            edge = 0 if nu == 2 else length * mpmath.mpf(10) ** -14
-            at = [edge + (length - 2 * edge) * n / 24 for n in range(25)]
-            values = [abs(f(s)) for s in at]
-            n = max(range(25), key=values.__getitem__)
-            greatest.append((values[n], i, f, at[max(n - 1, 0)], at[min(n + 1, 24)]))
-        # the grid misses a peak by less than 2 % of it
-        best = max(refined(*place) for value, _, *place in greatest if value >= 0.98 * max(greatest)[0])
+        # differences of mpmath need room at either end
+        best = highest(stretches(law, nu, 0 if nu == 2 else mpmath.mpf(10) ** -14))
     assert law.peak(nu).value == pytest.approx(float(best), rel=1e-11)
-
-
-def refined(f: Any, low: Any, high: Any) -> Any:
-    """The greatest |f| between two places around it, by golden sections to 14 digits of the value."""
-    golden = (mpmath.sqrt(5) - 1) / 2
-    for _ in range(36):
-        left, right = high - golden * (high - low), low + golden * (high - low)
-        low, high = (low, right) if abs(f(left)) > abs(f(right)) else (left, high)
-    return max(abs(f(low)), abs(f(high)))

@@ -1,17 +1,15 @@
 """Peaks against 60-digit arithmetic on the very law that is stored."""
 
-from collections.abc import Callable
 from functools import cache
 
 import numpy as np
 import pytest
 from mpmath import mp, mpf  # type: ignore[import-untyped]
-from numpy.typing import NDArray
 
 from optlaws import PolynomialLaw, smoothstep
 from tests.laws.examples import free_function_law, random_law
+from tests.laws.many_digits import DENSE, Exact
 
-DENSE = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 20001))
 DIGITS = 110  # powers of k lose 45 digits at degree 61
 
 LAWS: dict[str, PolynomialLaw] = {
@@ -26,58 +24,6 @@ LAWS: dict[str, PolynomialLaw] = {
         for order, terms in ((1, 3), (2, 4), (3, 6), (4, 10), (5, 12), (8, 20), (10, 30))
     },
 }
-
-
-class Exact:
-    """The stored law in many digits: its powers are exact rationals."""
-
-    def __init__(self, law: PolynomialLaw) -> None:
-        powers = [mpf(value.numerator) / value.denominator for value in law.exact_powers()]
-        self.orders = [powers]
-        for _ in range(6):
-            powers = [n * value for n, value in enumerate(powers)][1:] or [mpf(0)]
-            self.orders.append(powers)
-
-    def __call__(self, k: mpf, nu: int) -> mpf:
-        total = mpf(0)
-        for value in reversed(self.orders[nu]):
-            total = total * k + value
-        return total
-
-    def peak(self, nu: int, samples: NDArray[np.float64]) -> mpf:
-        return self._highest(samples, lambda k: self(k, nu), lambda k: self(k, nu + 1), lambda k: self(k, nu + 2))
-
-    def power_peak(self, samples: NDArray[np.float64]) -> mpf:
-        def value(k: mpf) -> mpf:
-            return self(k, 1) * self(k, 2)
-
-        def slope(k: mpf) -> mpf:
-            return self(k, 2) ** 2 + self(k, 1) * self(k, 3)
-
-        def bend(k: mpf) -> mpf:
-            return 3 * self(k, 2) * self(k, 3) + self(k, 1) * self(k, 4)
-
-        return self._highest(samples, value, slope, bend)
-
-    @staticmethod
-    def _highest(
-        samples: NDArray[np.float64],
-        value: Callable[[mpf], mpf],
-        slope: Callable[[mpf], mpf],
-        bend: Callable[[mpf], mpf],
-    ) -> mpf:
-        best = max(abs(value(mpf(0))), abs(value(mpf(1))))
-        size = np.abs(samples)
-        inner = size[1:-1]
-        tops = 1 + np.flatnonzero((inner >= size[:-2]) & (inner >= size[2:]) & (inner >= size.max() * (1 - 1e-5)))
-        for k in DENSE[tops[:: max(1, len(tops) // 20)]]:
-            place = mpf(float(k))
-            for _ in range(7):
-                steep = bend(place)
-                place -= slope(place) / steep if steep else 0
-            if 0 <= place <= 1:
-                best = max(best, abs(value(place)))
-        return best
 
 
 @cache

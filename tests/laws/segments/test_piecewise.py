@@ -4,7 +4,6 @@ import itertools
 from math import inf, log, nan, pi, sqrt
 from typing import Any
 
-import mpmath  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 from hypothesis import example, given
@@ -249,56 +248,6 @@ def test_jumps_of_rounding_size_are_none_in_uniform_motion() -> None:
 
 
 # --- powers of time and sums of sines ---
-
-
-mpf = mpmath.mpf
-CASES: list[tuple[Segment, Any]] = [  # a segment on [0, 1] and its velocity
-    (FractionalSegment(1.5, 1.0, 0.0, (4.0,), 2.0), lambda t: 2 - mpf(4) / mpf(2.5) * (1 - t) ** mpf(2.5)),
-    (
-        FractionalSegment(-0.5, 0.25, 2.25, (1.0, -0.5, 0.25), 0.75),
-        lambda t: mpf(0.75) + ((2 * (q := mpf(0.25) + 2 * t) ** mpf(0.5)) - q ** mpf(1.5) / 3 + q ** mpf(2.5) / 10) / 2,
-    ),
-    (
-        HarmonicSegment((3.0, -1.0), (2.5, 7.0), (0.75, 0.0), 0.125),
-        lambda t: (
-            mpf(0.125)
-            + mpf(6) / 5 * (mpmath.cos(mpf(0.75)) - mpmath.cos(mpf(2.5) * t + mpf(0.75)))
-            - (1 - mpmath.cos(7 * t)) / 7
-        ),
-    ),
-    (PowerSegment(0.5, 1.5), lambda t: mpmath.sqrt(mpf(1) / 4 + 2 * t)),
-    (PowerSegment(-1.5, -0.5), lambda t: -mpmath.sqrt(mpf(9) / 4 - 2 * t)),
-    (
-        SineSegment(3.0, 2.5, 0.75, 0.125, (1.0, -2.0, 4.0)),
-        lambda t: (
-            mpf(0.125)
-            + t
-            - t**2
-            + mpf(4) / 3 * t**3
-            + mpf(6) / 5 * (mpmath.cos(mpf(0.75)) - mpmath.cos(mpf(2.5) * t + mpf(0.75)))
-        ),
-    ),
-]
-NAMES = ["fall", "rise", "sines", "power", "power backwards", "sine with powers"]
-
-
-@pytest.mark.parametrize("nu", range(6))
-@pytest.mark.parametrize("k", [0.0, 0.21, 0.4, 0.8])
-@pytest.mark.parametrize("case", CASES, ids=NAMES)
-def test_derivatives_are_those_of_the_formula(case: tuple[Segment, Any], k: float, nu: int) -> None:
-    segment, b = case
-    with mpmath.workdps(30):
-        exact = float(mpmath.quad(b, [0, k]) if nu == 0 else mpmath.diff(b, mpf(k), nu - 1))
-    assert PiecewiseLaw([0, 1], [segment])(k, nu) == pytest.approx(exact, rel=1e-13, abs=1e-14)
-
-
-@pytest.mark.sample(4)
-@pytest.mark.parametrize("case", CASES, ids=NAMES)
-@pytest.mark.parametrize("nu", [1, 2, 3])
-def test_mean_squares_are_the_integrals(case: tuple[Segment, Any], nu: int) -> None:
-    law = PiecewiseLaw([0, 1], [case[0]])
-    exact = mpmath.quad(lambda t: law(float(t), nu) ** 2, [0, 0.5, 1])
-    assert law.rms(nu) == pytest.approx(float(exact) ** 0.5, rel=1e-12)
 
 
 def test_roots_of_a_fall_meet_at_its_end() -> None:

@@ -1,6 +1,5 @@
 """Enclosures in balls of laws, pieces and cams: none of what they hold may be missing."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -53,47 +52,7 @@ from tests.internals.verification import (
     series_of,
     upper,
 )
-
-
-def peaks(law: PolynomialLaw) -> dict[str, float]:
-    """With 60 digits, at the law's own stationary points after Newton's method."""
-    with mp.workdps(60):
-        a = [mpf(p.numerator) / p.denominator for p in law.exact_powers()]
-        b, c, j = derived(a), derived(derived(a)), derived(derived(derived(a)))
-        starts = {"B": law._candidates(1), "C": law._candidates(2), "J": law._candidates(3)}
-        starts["D"] = law._power_candidates()
-        functions = {"B": b, "C": c, "J": j, "D": product(b, c)}
-        return {name: peak(p, [mpf(k) for k in starts[name]]) for name, p in functions.items()}
-
-
-def derived(p: list[mpf]) -> list[mpf]:
-    return [i * value for i, value in enumerate(p)][1:]
-
-
-def product(p: list[mpf], q: list[mpf]) -> list[mpf]:
-    found = [mpf(0)] * (len(p) + len(q) - 1)
-    for i, x in enumerate(p):
-        for k, y in enumerate(q):
-            found[i + k] += x * y
-    return found
-
-
-def value_of(p: list[mpf], x: mpf) -> mpf:
-    total = mpf(0)
-    for value in reversed(p):
-        total = total * x + value
-    return total
-
-
-def peak(p: list[mpf], places: list[mpf]) -> mpf:
-    slope, curvature = derived(p), derived(derived(p))
-    values = []
-    for start in places:
-        x = start
-        for _ in range(6 if 0 < start < 1 else 0):
-            x -= value_of(slope, x) / (value_of(curvature, x) or 1)
-        values.append(abs(value_of(p, x if 0 <= x <= 1 and abs(x - start) < 1e-6 else start)))
-    return max(values)
+from tests.laws.many_digits import DENSE, Exact, highest, stretches
 
 
 @pytest.mark.parametrize(("order", "degree", "B"), [(2, 5, 1.6), (4, 9, 1.859), (5, 13, 1.6)])
@@ -101,10 +60,13 @@ def test_they_hold_what_mpmath_finds_and_hardly_more(order: int, degree: int, B:
     law = synthesize(Problem(B=B, order=order, basis=Chebyshev(degree))).law
     assert isinstance(law, PolynomialLaw)
     enclosed_values = enclosures(law)
-    for name, value in peaks(law).items():
-        low, high = enclosed_values[name]
-        assert mpf(low) <= value <= mpf(high)
-        assert high - low <= 1e-15 * high
+    with mp.workdps(60):
+        exact = Exact(law)
+        known = {name: exact.peak(nu, law(DENSE, nu)) for nu, name in enumerate("BCJ", 1)}
+        for name, value in (known | {"D": exact.power_peak(law.d(DENSE))}).items():
+            low, high = enclosed_values[name]
+            assert mpf(low) <= value <= mpf(high)
+            assert high - low <= 1e-15 * high
 
 
 @pytest.mark.parametrize(("order", "degree"), [(4, 25), (6, 59)])
@@ -148,9 +110,6 @@ def test_rounding_goes_outward() -> None:
 # --- pieces ---
 
 
-Function = Callable[[mpf], mpf]
-
-
 def joined(breaks: list[float], segments: list[Segment]) -> PiecewiseLaw:
     """With velocities such that b does not jump."""
     found: list[Segment] = []
@@ -177,73 +136,6 @@ OPTIMAL = [
 ]
 
 
-def function(segment: Segment, length: mpf, nu: int) -> Function:
-    """The derivative of order nu >= 1 by the time since the start, integrated by mpmath where b is asked."""
-    if isinstance(segment, PowerSegment):
-        start, end = mpf(segment.b0) ** 2, mpf(segment.b1) ** 2
-        return lambda s: mp.diff(lambda t: mp.sqrt(start + (end - start) * t / length), s, nu - 1)
-    return lambda s: (
-        (segment_b0(segment) + mp.quad(lambda t: c_of(segment, length, t), [0, s]))
-        if nu == 1
-        else mp.diff(lambda t: c_of(segment, length, t), s, nu - 2)
-    )
-
-
-def segment_b0(segment: Segment) -> mpf:
-    return mpf(segment.to_dict()["b0"])
-
-
-def c_of(segment: Segment, length: mpf, s: mpf) -> mpf:
-    if isinstance(segment, PolynomialSegment):
-        y = 2 * s / length - 1
-        return mp.fsum(mpf(value) * mp.chebyt(n, y) for n, value in enumerate(segment.acceleration))
-    if isinstance(segment, SineSegment):
-        steady = mp.fsum(mpf(p) * s**i for i, p in enumerate(segment.powers))
-        return steady + mpf(segment.amplitude) * mp.sin(mpf(segment.frequency) * s + mpf(segment.phase))
-    assert isinstance(segment, HarmonicSegment)
-    waves = zip(segment.amplitudes, segment.frequencies, segment.phases, strict=True)
-    return mp.fsum(mpf(a) * mp.sin(mpf(w) * s + mpf(phase)) for a, w, phase in waves)
-
-
-def highest(value: Function, length: mpf) -> mpf:
-    """The greatest magnitude on a stretch, by golden section around the good ones of some points.
-
-    Peaks of an optimum are as high as one another but for its last digit: the best point need not be at the highest.
-    """
-    places = [length * i / 24 for i in range(25)]
-    values = [abs(value(s)) for s in places]
-    tops = [i for i in range(25) if values[i] >= max(values[max(i - 1, 0)], values[min(i + 1, 24)])]
-    return max(*values, *(_risen(value, places, i) for i in tops if values[i] >= mpf("0.97") * max(values)))
-
-
-def _risen(value: Function, places: list[mpf], best: int) -> mpf:
-    low, high = places[max(best - 1, 0)], places[min(best + 1, 24)]
-    share = (mp.sqrt(5) - 1) / 2
-    inner = [high - share * (high - low), low + share * (high - low)]
-    heights = [abs(value(s)) for s in inner]
-    for _ in range(110):
-        if heights[0] > heights[1]:
-            high, inner, heights = inner[1], [mpf(0), inner[0]], [mpf(0), heights[0]]
-            inner[0] = high - share * (high - low)
-            heights[0] = abs(value(inner[0]))
-        else:
-            low, inner, heights = inner[0], [inner[1], mpf(0)], [heights[1], mpf(0)]
-            inner[1] = low + share * (high - low)
-            heights[1] = abs(value(inner[1]))
-    return max(heights)
-
-
-def squared(value: Function, length: mpf) -> mpf:
-    return mp.quad(lambda s: value(s) ** 2, [0, length / 2, length])
-
-
-def stretches(law: PiecewiseLaw) -> list[tuple[Segment, mpf]]:
-    return [
-        (segment, mpf(end) - mpf(start))
-        for segment, (start, end) in zip(law.segments, pairwise(law.breaks), strict=True)
-    ]
-
-
 @pytest.mark.sample(6)
 @pytest.mark.parametrize("law", [CYCLOID, MIXED, CONSTANT_POWER, *OPTIMAL], ids=["cycloid", "mixed", "power", "B", "Z"])
 def test_of_pieces_they_hold_what_mpmath_finds(law: PiecewiseLaw) -> None:
@@ -251,11 +143,11 @@ def test_of_pieces_they_hold_what_mpmath_finds(law: PiecewiseLaw) -> None:
     with mp.workdps(50):
         orders = {"C": 2} if law is not CYCLOID else {"C": 2, "J": 3}
         for name, nu in orders.items():
-            value = max(highest(function(segment, length, nu), length) for segment, length in stretches(law))
+            value = highest(stretches(law, nu), 110)
             low, high = enclosed_values[name]
             assert mpf(low) - mpf(10) ** -28 <= value <= mpf(high) + mpf(10) ** -28
             assert high - low <= 1e-14 * high
-        square = mp.fsum(squared(function(segment, length, 2), length) for segment, length in stretches(law))
+        square = mp.fsum(mp.quad(lambda s, f=f: f(s) ** 2, [0, end / 2, end]) for f, _, end in stretches(law, 2))
         low, high = enclosed_values["rms_c"]
         assert mpf(low) - mpf(10) ** -25 <= mp.sqrt(square) <= mpf(high) + mpf(10) ** -25
         assert high - low <= 1e-14 * high
