@@ -1,7 +1,5 @@
 """Mass laws chosen for the sake of their cam: below Savin's families, proven, and found again by a linear program."""
 
-import json
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -10,10 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import (
-    B,
     BoundaryConditions,
     BSplines,
-    Certificate,
     Chebyshev,
     InputError,
     Pieces,
@@ -26,7 +22,7 @@ from optlaws import (
     synthesize,
 )
 from tests.internals.mechanisms import gain
-from tests.mechanisms.cam_programs import PLACES, integrated, least_cam_acceleration
+from tests.mechanisms.cam_programs import PLACES, integrated
 from tests.tables import rows
 
 CASES = [(*member, damping) for member in (("III", 7.2, 4), ("IV", 11.0, 5)) for damping in (0.0, 0.05)]
@@ -81,17 +77,6 @@ def test_the_mass_moves_by_the_law_when_the_cam_is_integrated(
     assert np.abs(moved.a - law.a(PLACES)).max() < 1e-10
     assert np.abs(moved.c - law.c(PLACES)).max() < 1e-7
     assert moved.residual < 1e-8
-
-
-@pytest.mark.sample(2)
-@pytest.mark.parametrize(("family", "alpha", "order", "damping"), CASES)
-def test_a_linear_program_over_all_laws_finds_the_same(family: str, alpha: float, order: int, damping: float) -> None:
-    asked = problem(family, alpha, order, damping)
-    assert isinstance(asked.B, float)
-    found = least_cam_acceleration(asked.B, order, 11, 20.0, damping)
-    # held on a grid alone it is a little below; unsymmetric laws are no better for an undamped cam
-    assert synthesize(asked).objective == pytest.approx(found, rel=2e-5)
-    assert found <= synthesize(asked).objective * (1 + 1e-8)
 
 
 @pytest.mark.parametrize("damping", [0.0, 0.05])
@@ -173,28 +158,12 @@ def test_a_mass_accelerates_in_the_mean_at_most_gain_times_as_much_as_its_cam(nu
     assert weights @ np.abs(law.c(PLACES)) <= gain(nu, damping) * (weights @ np.abs(cam.c(PLACES))) * (1 + 1e-4)
 
 
-def test_problem_and_certificate_are_stored_as_text() -> None:
-    asked = Problem(
-        order=4,
-        minimise=0.5 * cam_constant("C", frequency=20, damping=0.05) / 4 + 0.5 * B,
-        bounds={cam_constant("J", frequency=30): at_most(500.0)},
-    )
-    with pytest.raises(InputError, match="order 5"):
-        synthesize(asked)
-    asked = replace(asked, order=5)
-    assert asked.minimise == "0.125*C_cam(frequency=20.0, damping=0.05) + 0.5*B"
-    assert Problem.from_dict(json.loads(json.dumps(asked.to_dict()))) == asked
-    proof = synthesize(asked).certificate
-    read = Certificate.from_dict(json.loads(json.dumps(proof.to_dict())))
-    assert read == proof
-    assert read.bound == proof.bound > 0.0
-
-
 @pytest.mark.parametrize(
     ("given_", "says"),
     [
         ({"order": 3}, "order 4 at least"),
         ({"order": 4, "minimise": "J_cam(frequency=20)"}, "order 5 at least"),
+        ({"order": 4, "bounds": {"J_cam(frequency=30)": at_most(500.0)}}, "order 5 at least"),
         ({"order": 4, "basis": Pieces(8, degree=5, continuity=2)}, "continuity of at least 3"),
         ({"boundary": BoundaryConditions((0, 1, 0, 0), (1, 1, 0, 0)), "symmetric": False}, "zero at both ends"),
     ],

@@ -1,6 +1,5 @@
 """Residual vibration that is small over frequencies or weighed by a measured spectrum: greatest values and proofs."""
 
-import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -33,7 +32,7 @@ from optlaws import (
 from optlaws.verification import verify
 from tests.internals.mechanisms import above
 from tests.internals.synthesis import few_families
-from tests.mechanisms.cam_programs import integrated, least_acceleration, residuals
+from tests.mechanisms.cam_programs import integrated, residuals
 from tests.sampling import examples
 
 NU = np.linspace(18.0, 22.0, 2001)
@@ -54,24 +53,17 @@ def test_the_greatest_residual_is_that_of_a_fine_grid_and_of_the_response(law: M
 
 @given(st.floats(2.0, 60.0), st.floats(0.0, 40.0), st.floats(0.0, 0.9))
 @examples(25)
-def test_the_greatest_residual_of_any_interval(low: float, length: float, damping: float) -> None:
-    law = savin("III", 7.2)
-    vibration = residual_vibration(frequency=(low, low + length), damping=damping).value(law)
-    grid = residuals(law.b, np.linspace(low, low + length, 1001), damping)
-    assert grid.max() <= vibration * (1 + 1e-9) + 1e-12
-    assert grid.max() >= vibration * (1 - 1e-2 - length * 1e-3)
-
-
-@given(st.floats(2.0, 60.0), st.floats(0.0, 40.0), st.floats(0.0, 0.9))
-@examples(25)
-def test_the_residual_displacement_is_that_of_responses(low: float, length: float, damping: float) -> None:
-    law = savin("III", 7.2)
-    peak = residual_vibration(frequency=(low, low + length), damping=damping, of="displacement").peak(law)
-    assert low <= peak.k <= low + length
-    displacement = Follower(peak.k, damping).response(law).residual_displacement
-    assert peak.value == pytest.approx(displacement, rel=1e-9, abs=1e-12)
-    nu = np.linspace(low, low + length, 301)
-    assert np.abs(residual_phasor(law, nu, damping)).max() <= peak.value * (1 + 1e-9) + 1e-12
+def test_the_greatest_residuals_of_any_interval_are_those_of_responses(
+    low: float, length: float, damping: float
+) -> None:
+    law, nu = savin("III", 7.2), np.linspace(low, low + length, 1001)
+    accelerations = residuals(law.b, nu, damping)
+    for of, grid in (("acceleration", accelerations), ("displacement", accelerations / nu**2)):
+        peak = residual_vibration(frequency=(low, low + length), damping=damping, of=of).peak(law)  # type: ignore[arg-type]
+        assert low <= peak.k <= low + length
+        assert grid.max() <= peak.value * (1 + 1e-9) + 1e-12
+        own = getattr(Follower(peak.k, damping).response(law), f"residual_{of}")
+        assert peak.value == pytest.approx(own, rel=1e-9, abs=1e-12)
 
 
 def test_a_law_of_little_residual_displacement_is_proven() -> None:
@@ -146,23 +138,6 @@ def test_a_robust_polydyne_law_has_no_residual_at_its_design_and_little_around_i
     assert solution.objective < known.constants.C.value
 
 
-def test_a_linear_program_over_all_laws_brackets_the_optimum() -> None:
-    asked = Problem(
-        order=3,
-        basis=Chebyshev(9),
-        bounds={residual_vibration(frequency=(18, 22), damping=0.05): at_most(0.05)},
-        symmetric=False,
-    )
-    solution = synthesize(asked)
-    assert solution.status.value == "optimal"
-    frequencies = np.linspace(18.0, 22.0, 41)
-    # a polygon outside the circle, and one inside
-    low = least_acceleration(3, 9, frequencies, 0.05, 0.05)
-    high = least_acceleration(3, 9, frequencies, 0.05, 0.05 * np.cos(np.pi / 64))
-    assert low * (1 - 1e-5) <= solution.objective <= high * (1 + 1e-4)
-    assert high - low < 0.01
-
-
 def test_the_least_residual_that_an_acceleration_allows() -> None:
     wide = residual_vibration(frequency=(18, 22), damping=0.05)
     asked = Problem(order=3, C=at_most(6.0), minimise=wide, symmetric=False)
@@ -207,15 +182,6 @@ def test_a_residual_out_of_reach_is_refused_with_proof() -> None:
         assert isinstance(proof, Certificate)
         assert proof.proves_infeasible or proof.bound > asked.bounds["residual(frequency=(18.0, 22.0))"].high
         assert "frequency = 18" in str(caught.value) or "below" in str(caught.value)
-
-
-def test_problem_and_certificate_are_stored_as_text() -> None:
-    asked = CASES[2]
-    assert Problem.from_dict(json.loads(json.dumps(asked.to_dict()))) == asked
-    proof = synthesize(asked).certificate
-    read = Certificate.from_dict(json.loads(json.dumps(proof.to_dict())))
-    assert read == proof
-    assert read.bound == proof.bound == pytest.approx(synthesize(asked).objective, rel=1e-8)
 
 
 def test_a_spoilt_certificate_proves_less() -> None:
@@ -347,16 +313,6 @@ def measured(seed: int, points: int, size: float = 1.0, *, noise: float = 0.1) -
     return np.column_stack([nu, size * sizes * np.exp(noise * numbers.normal(size=points))])
 
 
-def residual_by_quadrature(c: Callable[[np.ndarray], np.ndarray], nu: np.ndarray, damping: float) -> np.ndarray:
-    """The envelope that a law from rest to rest leaves, as an acceleration, by Gauss's rule in each tenth of k."""
-    x, weights = np.polynomial.legendre.leggauss(24)
-    k = (np.arange(10)[:, None] + 0.5 * (1.0 + x)).ravel() / 10.0
-    root = -damping + 1j * np.sqrt(1.0 - damping**2)
-    waves = np.exp(root * nu[:, None] * (1.0 - k))
-    moved = np.abs(waves @ (np.tile(weights / 20.0, 10) * c(k)))
-    return np.asarray(nu * moved / np.sqrt(1.0 - damping**2))
-
-
 @pytest.mark.sample(3)
 @pytest.mark.parametrize(("points", "size"), [(60, 1e-9), (300, 1e9), (1000, 1e-3), (2000, 1.0), (5000, 1e6)])
 @pytest.mark.parametrize("damping", [0.0, 0.03])
@@ -367,11 +323,11 @@ def test_the_greatest_is_that_of_the_whole_table(points: int, size: float, dampi
         peak = residual_vibration(spectrum=pairs, damping=damping).peak(law)
         shares = np.linspace(0.0, 1.0, max(4, 4000 // points))
         dense = (pairs[:-1, :1] + shares * np.diff(pairs[:, :1], axis=0)).ravel()
-        amplitudes = residual_by_quadrature(lambda k: law(k, 2), dense, damping)
+        amplitudes = residuals(law.b, dense, damping)
         known = (np.interp(dense, *pairs.T) * amplitudes).max()
         assert known * (1.0 - 1e-12) <= peak.value <= known * (1.0 + 1e-3)
         there = np.array([peak.k])
-        at_peak = np.interp(there, *pairs.T) * residual_by_quadrature(lambda k: law(k, 2), there, damping)
+        at_peak = np.interp(there, *pairs.T) * residuals(law.b, there, damping)
         assert peak.value == pytest.approx(float(at_peak[0]), rel=1e-11)
 
 
@@ -401,7 +357,7 @@ def test_an_optimum_of_a_whole_table_is_proven_from_its_file(points: int, size: 
     most = 0.5 * limit.value(smoothstep(4))
     solution = synthesize(Problem(order=3, basis=Chebyshev(9), bounds={limit: at_most(most)}, symmetric=False))
     dense = np.interp(np.arange(0, points - 1, 0.05), np.arange(points), pairs[:, 0])
-    weighed_by_table = np.interp(dense, *pairs.T) * residual_by_quadrature(lambda k: solution.law(k, 2), dense, 0.02)
+    weighed_by_table = np.interp(dense, *pairs.T) * residuals(solution.law.b, dense, 0.02)
     assert 0.999 * most <= weighed_by_table.max() <= most * (1.0 + 1e-9)
     data = solution.to_dict()
     assert "\nproven      optimal: the proven gap" in str(verify(data))
