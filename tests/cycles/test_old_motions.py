@@ -456,6 +456,8 @@ def test_a_jump_of_the_jerk_at_a_steep_place_is_no_corner() -> None:
         (721, 5e-3, (31.0, 66.0, 259.0, 322.0), (2.3, 4.2)),
         (361, 1e-2, (142.0, 168.0, 212.0, 247.0), (4.9, 3.0)),
         (1441, 2e-3, (48.0, 83.0, 229.0, 321.0), (4.9, 4.3)),
+        (1441, 5e-3, (97.0, 130.0, 243.0, 279.0), (1.08, 3.68)),  # one velocity is 0.73 of the one before
+        (361, 5e-3, (58.0, 87.0, 119.0, 332.0), (4.01, 0.35)),  # the rest over the seam meets a slow line
     ],
 )
 def test_lines_that_meet_in_one_row_are_all_found(
@@ -490,16 +492,45 @@ def test_half_cycloids_meet_a_constant_velocity_without_a_corner() -> None:
     assert table.peaks[1].holds(2.0 * np.pi * 2.0 * 2.0 / (89.0 * 2.0 / 3.0) ** 2)
 
 
-def test_a_lift_that_leaves_its_ramp_at_rest_has_corners_there() -> None:
-    """The rows of the corners were taken for points far off."""
+@pytest.mark.parametrize("turning", [-0.0075, -0.0448 / 6.0])
+def test_a_lift_that_leaves_its_ramp_at_rest_has_corners_there(turning: float) -> None:
+    """The rows of the corners were taken for points far off, or joints were put beside them."""
     x = np.linspace(0.0, 360.0, 721)
-    lift = BPoly.from_derivatives([120.0, 180.0], [[0.3, 0.0, 0.0], [8.3, 0.0, -0.0075]])
+    lift = BPoly.from_derivatives([120.0, 180.0], [[0.3, 0.0, 0.0], [8.3, 0.0, turning]])
     u = np.minimum(x, 360.0 - x)
     y = np.where(u < 120.0, np.clip(0.012 * (u - 95.0), 0.0, 0.3), lift(u)).round(3)
     table = split_table(x, [float(each) for each in y], digit=1e-3)
     assert table.corners == pytest.approx((95.0, 120.0, 240.0, 265.0), abs=0.05)
     assert table.outliers == ()
     assert [part.stop for part in table.stretches] == pytest.approx([95.0, 120.0, 180.0, 240.0, 265.0, 360.0], abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("rows", "noise", "speed", "closing"),
+    [(721, 3e-3, 0.02, 0.02), (721, 1e-3, 0.012, 0.0), (361, 2e-3, 0.025, 0.0), (1441, 5e-3, 0.028, 0.0)],
+)
+def test_lifts_behind_ramps_with_blends_have_corners_where_they_leave_these_at_rest(
+    rows: int, noise: float, speed: float, closing: float
+) -> None:
+    """Ramps begin and end over 8 deg; one lift leaves its ramp at rest, and the other does so or with its velocity."""
+    x, turning = np.linspace(0.0, 360.0, rows), [9.0, 0.0, -0.006]
+
+    def half(away: np.ndarray, leaving: float) -> np.ndarray:
+        """The lift at places behind the end of the rest, which leaves the ramp with a velocity."""
+        blend = BPoly.from_derivatives([0.0, 8.0], [[0.0] * 3, [4.0 * speed, speed, 0.0]])
+        lift = BPoly.from_derivatives([28.0, 88.0], [[24.0 * speed, leaving, 0.0], turning])
+        return np.select(
+            [away <= 0.0, away < 8.0, away < 28.0],
+            [0.0, blend(away), speed * (away - 4.0)],
+            lift(np.minimum(away, 88.0)),
+        )
+
+    exact = np.where(x < 148.0, half(x - 60.0, 0.0), half(236.0 - x, closing))
+    table = split_table(x, np.round(exact + np.random.default_rng(34).normal(0.0, noise, rows), 4), digit=1e-4)
+    corners = (88.0,) if closing else (88.0, 208.0)
+    assert table.corners == pytest.approx(corners, abs=0.2)
+    assert np.isinf(table.peaks[1].high)
+    assert np.abs(table.at(x) - exact).max() <= 4.0 * noise
 
 
 def test_an_index_of_four_lobes_has_four_equal_moves_also_at_its_seam() -> None:

@@ -27,8 +27,12 @@ _COARSE = (1, 2, 4)
 _MOST_JOINTS = 8
 #: of the greatest velocity: what is slower may turn by chance
 _SLOW = 0.01
-#: pieces from which on corners are looked for where a spline begins and ends
-_CORNERED = 8
+#: at which ends a fit may leave lines or rests with another velocity
+_CORNERS = ((True, True), (True, False), (False, True))
+#: of places at which a turn is looked for: where a corner is smoothed a fit may turn back
+_NEAR_END = CANDIDATES // 8
+#: parameters from which on corners are looked for where a spline begins and ends
+_CORNERED = 12
 #: steps within which a corner is where the rows of a line end
 _NEAR_CORNER = 4.0
 #: how many numbers of pieces are tried without a jump of the acceleration at rests
@@ -226,15 +230,19 @@ class _Search:
         self, joints: tuple[Joint, ...], fits: list[CurveFit]
     ) -> tuple[_Search, tuple[Joint, ...], list[CurveFit]]:
         """The search, joints and fits that leave lines or rests with other velocities where these are far likelier."""
-        best, corners = self.best(fits), (bool(self.fitter.ends[0].line), bool(self.fitter.ends[1].line))
-        while best.pieces > _CORNERED and self.fitter.advance is None and any(corners):
-            search, more, family = self._cornered(best, corners)
-            if not family or search.criterion(search.best(family)) > self.criterion(best) - EVIDENT:
+        best, (before, after) = self.best(fits), self.fitter.ends
+        sides = [(first, last) for first, last in _CORNERS if (before.line or not first) and (after.line or not last)]
+        while sides and best.free > _CORNERED and self.fitter.advance is None:
+            tried = [each for each in (self._cornered(best, corners) for corners in sides) if each[2]]
+            if not tried:
+                break
+            search, more, family = min(tried, key=lambda each: each[0].criterion(each[0].best(each[2])))
+            if search.criterion(search.best(family)) > self.criterion(best) - EVIDENT:
                 break
             evident = search.best(family).changes()
-            if evident == corners:
+            if evident == search.fitter.corners:
                 return search, *search.jointed(family, more)
-            corners = corners[0] and evident[0], corners[1] and evident[1]
+            sides = [evident] if evident in sides else []
         return self, joints, fits
 
     def _cornered(
@@ -249,7 +257,8 @@ class _Search:
         middles = [0.5 * (end.low + end.high) for end in ends]
         start, stop = middles[0] if corners[0] else best.start, middles[1] if corners[1] else best.stop
         tried = []
-        for joints in ((), *((Joint(turn, 2),) for turn in _turns(best))):
+        for joint in ((), *((Joint(turn, 2),) for turn in _turns(best))):
+            joints = search.fitter.placed((start, stop), joint, _SIMPLE)
             if family := search.climbed(joints, (start, stop), 0.0):
                 # few pieces do not tell where a corner is
                 at = search.fitter.ends_of(start, stop, joints, search.best(family).pieces, step)
@@ -349,8 +358,8 @@ class _Search:
 
 
 def _turns(fit: CurveFit) -> list[float]:
-    """About where a fit turns, if it does so once alone."""
-    at = np.linspace(fit.start, fit.stop, 2 * CANDIDATES + 1)
+    """About where a fit turns, if it does so once alone, but near its ends."""
+    at = np.linspace(fit.start, fit.stop, 2 * CANDIDATES + 1)[_NEAR_END:-_NEAR_END]
     velocity = fit.values(at, 1)
     fast = np.abs(velocity) > _SLOW * np.abs(velocity).max()
     signs = np.sign(velocity[fast])

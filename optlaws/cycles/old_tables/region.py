@@ -41,8 +41,8 @@ _NO_MODEL = 2.0
 _FEWEST_BESIDE = 4
 #: of a row far off a spline, by which those beside it may be off
 _ALONE = 0.5
-#: rows about a corner that show whether it is one, and by how many deviations of their sum they are to one side
-_BESIDE_CORNER, _TO_ONE_SIDE = (4, 32), 4.0
+#: steps over which the velocity may change where lines meet
+_BLENDS = np.arange(2.0, 65.0, 2.0)
 #: standard laws whose sums of squares differ by less are told apart by no table
 _ALIKE = 16.0
 #: of a turn: the moves of one without rest begin so far off it
@@ -178,11 +178,12 @@ class Region:
         return float(at), float(before.value(np.array(at))), squares
 
     def _is_rounded(self, off: Array, at: float) -> bool:
-        """Whether rows about a corner are off it to one side, as where the velocity changes smoothly."""
-        order = np.argsort(np.abs(self.x - at))
-        sums = np.cumsum(off[order])[_BESIDE_CORNER[0] - 1 : _BESIDE_CORNER[1]]
-        counts = np.arange(len(sums)) + _BESIDE_CORNER[0]
-        return bool(np.any(np.abs(sums) > _TO_ONE_SIDE * np.sqrt(counts)))
+        """Whether parabolas of some length, in which the velocity changes, are far likelier than a corner."""
+        away, change = np.abs(self.x - at), self.ends[1].slope - self.ends[0].slope
+        lengths = self.samples.step * _BLENDS
+        blends = change * np.maximum(0.5 * lengths - away[:, None], 0.0) ** 2 / (2.0 * lengths) / self.noise[:, None]
+        squares = ((off[:, None] + blends) ** 2).sum(axis=0)
+        return bool(squares.min() < off @ off - EVIDENT)
 
     @property
     def _has_few_rows(self) -> bool:
