@@ -35,9 +35,19 @@ class FittedMotion:
 
 def motion_of(samples: Samples) -> FittedMotion:
     """The motion of samples: rests as they are found, and between these moves with the models that rows allow."""
-    clean, share = samples.without(samples.suspects), 1.0
-    if len(clean.places) > _MANY and 1.0 < (about := variance_about_spline(clean)) <= _MORE_NOISE:
-        clean, share = replace(clean, noise=np.sqrt(about) * clean.noise), about
+    clean = samples.without(samples.suspects)
+    if len(clean.places) <= _MANY:
+        return _motion_of(samples, clean, 1.0)
+    if 1.0 < (about := variance_about_spline(clean)) <= _MORE_NOISE:
+        return _motion_of(samples, clean, about)
+    motion = _motion_of(samples, clean, 1.0)
+    certain = 1.0 + 3.0 * np.sqrt(2.0 / len(clean.places))
+    return _motion_of(samples, clean, motion.variance) if certain < motion.variance <= _MORE_NOISE else motion
+
+
+def _motion_of(samples: Samples, clean: Samples, share: float) -> FittedMotion:
+    """The motion for noise of a variance that is a share of that by differences."""
+    clean = replace(clean, noise=np.sqrt(share) * clean.noise)
     rests = rests_of(clean)
     far: list[float] = []
     # rows beside a level with the same rest before and behind them
@@ -195,8 +205,8 @@ def _begun(samples: Samples, crests: Sequence[float], advance: float) -> tuple[S
     if longest not in rests:
         return turn, inner
     # of few rows, the halves of a rest are hardly rests each
-    halves = (
-        Line(0, longest.last - row, longest.level), Line(last - row + longest.first, last, longest.level + advance)
-    )  # fmt: skip
-    between = (rest for rest in inner if rest.first > halves[0].last and rest.last < halves[1].first)
-    return turn, [halves[0], *between, halves[1]]
+    halves = Line(0, longest.last - row, longest.level), Line(last - row + longest.first, last, longest.level + advance)
+    between = [rest for rest in inner if rest.first > halves[0].last and rest.last < halves[1].first]
+    # a rest over the end of the table is one
+    over = [rest.first for rest in inner if rest.first < halves[1].first <= rest.last]
+    return turn, [halves[0], *between, replace(halves[1], first=min([halves[1].first, *over]))]

@@ -149,21 +149,31 @@ def lines_of(samples: Samples, first: int, last: int) -> list[Line]:
     lines = list[Line]()
     windows = np.flatnonzero(straight)
     # noise alone makes few windows beside each other bent
-    for run in np.split(windows, np.flatnonzero(np.diff(windows) > rows // 2) + 1) if windows.size else ():
-        low, high = int(run[0]), int(run[-1]) + rows - 1
+    runs = np.split(windows, np.flatnonzero(np.diff(windows) > rows // 2) + 1) if windows.size else []
+    left = deque((int(run[0]), int(run[-1]) + rows - 1) for run in runs)
+    while left:
+        begin, end = low, high = left.popleft()
         trim = max(1, (high - low) // 20)
         while high - low + 1 >= max(_WINDOW, count * _SHARE):
             if _is_straight(x[low : high + 1], y[low : high + 1], float(size.max())):
                 line, low, high = _line(x, y, NOISE_ROOM * noise + 0.5 * samples.digit, low, high)
-                after = Line(first + low, first + high, *line)
-                # the row of a corner is on both of its lines, and noise puts further ones there
-                if not lines or lines[-1].last < after.first:
-                    lines.append(after)
-                elif _are_at_a_corner(samples.places, lines[-1], after, NOISE_ROOM * float(size.max())):
-                    lines.append(replace(after, first=lines[-1].last))
+                lines.append(Line(first + low, first + high, *line))
+                # in windows that are short beside noise a corner is not seen: others may be on its sides
+                left.extend([(begin, low), (high, end)])
                 break
             low, high = low + trim, high - trim
-    return lines
+    return _apart(samples.places, sorted(lines, key=lambda line: line.first), NOISE_ROOM * float(size.max()))
+
+
+def _apart(x: Array, lines: Sequence[Line], room: float) -> list[Line]:
+    """Lines with no rows in common but that of a corner, which is on both; noise puts further ones there."""
+    apart = list[Line]()
+    for line in lines:
+        if not apart or apart[-1].last < line.first:
+            apart.append(line)
+        elif _are_at_a_corner(x, apart[-1], line, room):
+            apart.append(replace(line, first=apart[-1].last))
+    return apart
 
 
 def _are_at_a_corner(x: Array, before: Line, after: Line, room: float) -> bool:
