@@ -4,7 +4,7 @@ Nothing here uses optlaws.synthesis beyond Problem and the terms of its objectiv
 program asks less than everywhere, so its least value is never above the true one; the exchange brings it there.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise, repeat
 from math import inf, isfinite, sqrt
@@ -255,6 +255,16 @@ def least(
             return worth
         before = worth
     raise Undecided(f"the exchange did not end: {worst:.1e} in {problem}")
+
+
+def least_share(duration: float, stroke: float, limits: Mapping[str, float], **space: Any) -> float | None:
+    """The greatest share that a move takes of its limits, by the names of constants, where it is least.
+
+    At most 1 are those of all times in which the move is possible; 1 itself is that of the least time.
+    """
+    orders = {"B": 1, "C": 2, "C_plus": 2, "C_minus": 2, "J": 3}
+    parts = [f"{name}/{most * duration ** orders[name] / stroke!r}" for name, most in limits.items()]
+    return least(Problem(minimise=f"max({', '.join(parts)})", symmetric=False, **space), tolerance=1e-8)
 
 
 def _solved(program: Program, reduced: float) -> Array | None:

@@ -1,4 +1,4 @@
-"""The least time of a move by methods of its own: closed forms, a bisection with linear programs, ruckig."""
+"""The least time of a move by methods of its own: closed forms, the shares of limits by HiGHS, ruckig."""
 
 from dataclasses import replace
 from typing import Any
@@ -11,6 +11,7 @@ from scipy.optimize import linprog
 from optlaws import B, C_minus, C_plus, Chebyshev, InfeasibleProblem, InputError, J, Pieces, Problem, Window, catalogue
 from tests.internals.synthesis import FollowerResidual, LeastTime, MoveLimits, TimedMove, least_time, segment_times
 from tests.synthesis.least_time.otg import fastest_motion
+from tests.synthesis.reference import least_share
 
 LIMITS = MoveLimits(velocity=5.0, acceleration=10.0, deceleration=10.0, jerk=30.0)
 UNEVEN = MoveLimits(velocity=1.0, acceleration=12.0, deceleration=8.0, jerk=300.0)
@@ -68,40 +69,10 @@ def test_many_pieces_come_near_the_time_of_all_laws() -> None:
     assert 0.0 < many.price < 1e-3
 
 
-def feasible_on_grid(duration: float, degree: int = 12, places: int = 801) -> bool:
-    """Whether a polynomial from rest to rest keeps UNEVEN on a grid, by a linear program in powers of 2k - 1."""
-    x = np.linspace(-1.0, 1.0, places)
-    basis = np.polynomial.chebyshev.Chebyshev
-    of_order = [
-        np.array([basis.basis(i).deriv(nu)(x) if nu else basis.basis(i)(x) for i in range(degree + 1)]).T
-        * (2.0 / duration) ** nu
-        for nu in range(4)
-    ]
-    ends = [rows[place] for rows in of_order[:3] for place in (0, -1)]
-    sides = [
-        (of_order[1], 1.0),
-        (-of_order[1], 1.0),
-        (of_order[2], 12.0),
-        (-of_order[2], 8.0),
-        (of_order[3], 300.0),
-        (-of_order[3], 300.0),
-    ]
-    found = linprog(
-        np.zeros(degree + 1),
-        A_ub=np.vstack([rows / limit for rows, limit in sides]),
-        b_ub=np.ones(places * len(sides)),
-        A_eq=np.array(ends),
-        b_eq=np.array([0.0, 0.1, 0.0, 0.0, 0.0, 0.0]),
-        bounds=(None, None),
-    )
-    return bool(found.status == 0)
-
-
-def test_no_linear_program_on_a_grid_is_clearly_faster() -> None:
-    # order 3 and Z of degree 6 are polynomials of degree 12
+def test_in_the_least_time_the_limits_are_just_taken() -> None:
     duration = least_time(TimedMove(Problem(order=3, basis=Chebyshev(6)), 0.1, UNEVEN)).duration
-    assert feasible_on_grid(duration * (1.0 + 1e-6))
-    assert not feasible_on_grid(duration * (1.0 - 1e-4))
+    limits = {"B": 1.0, "C_plus": 12.0, "C_minus": 8.0, "J": 300.0}
+    assert least_share(duration, 0.1, limits, order=3, basis=Chebyshev(6)) == pytest.approx(1.0, rel=1e-6)
 
 
 @pytest.mark.parametrize(("start", "end"), [(0.0, 0.0), (0.4, -0.2)])
