@@ -264,7 +264,7 @@ def least_share(duration: float, stroke: float, limits: Mapping[str, float], **s
     """
     orders = {"B": 1, "C": 2, "C_plus": 2, "C_minus": 2, "J": 3}
     parts = [f"{name}/{most * duration ** orders[name] / stroke!r}" for name, most in limits.items()]
-    return least(Problem(minimise=f"max({', '.join(parts)})", symmetric=False, **space), tolerance=1e-8)
+    return least(Problem(minimise=f"max({', '.join(parts)})", symmetric=False, **space), tolerance=1e-7)
 
 
 def _solved(program: Program, reduced: float) -> Array | None:
