@@ -19,6 +19,7 @@ from tests.internals.synthesis import (
     FormulaFamily,
     KinkedIntegralFamily,
     LawSpace,
+    PieceSeries,
     ProductFamily,
     named,
     space_of,
@@ -50,7 +51,7 @@ def random_cone(seed: int) -> ConeFamily:
     numbers = np.random.default_rng(seed)
     series = numbers.normal(size=(7, 6)) + 1j * numbers.normal(size=(7, 6))
     series[:, 4] = 0.0
-    return ConeFamily("cone", np.eye(5)[4], 0.5, series=series)
+    return ConeFamily("cone", np.eye(5)[4], 0.5, table=PieceSeries.whole(series))
 
 
 def vibration(laws: LawSpace) -> ConstraintFamily:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, Problem, Solution, Status, smoothstep, synthesize
-from tests.internals.synthesis import Answer, LinearFamily, Points, Program, exchange, ipopt
+from tests.internals.synthesis import Answer, LinearFamily, PieceSeries, Points, Program, exchange, ipopt
 from tests.synthesis.independent import acceleration_of, check_solution, extremes, velocity_of, z_of
 
 SHAPES = [
@@ -69,7 +69,7 @@ def test_stopping_at_an_acceptable_level_is_no_success(monkeypatch: pytest.Monke
             return {"success": True, "return_status": "Solved_To_Acceptable_Level", "iter_count": 3}
 
     monkeypatch.setattr(ipopt, "_solver", lambda *_, **__: Acceptable())
-    family = LinearFamily("f", np.array([0.0, 1.0]), series=np.ones((1, 3)))
+    family = LinearFamily("f", np.array([0.0, 1.0]), table=PieceSeries.whole(np.ones((1, 3))))
     program = Program((family,), np.ones((1, 2)), np.ones(1), np.array([0.0, 1.0]))
     points = Points(np.array([0.0, 0.5]), np.ones(2))
     answer = ipopt.solve_on_points(program, [points], None)

@@ -20,7 +20,8 @@ from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import product
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.energy import Energy, EnergyFamily
-from optlaws.synthesis.families.family import ConstraintFamily, EvenFamily, LinearFamily
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily
+from optlaws.synthesis.families.piece_series import PieceSeries, widened
 from optlaws.synthesis.problem.constants import PLAIN, C, Functional, ProblemView
 from optlaws.synthesis.problem.expression import Expression, Term
 from optlaws.synthesis.problem.named_constants import parse
@@ -90,7 +91,7 @@ class LoaderPeak(Functional):
         shared, size = _energy(space, len(slack)), len(slack)
         signs = (1.0, -1.0)
         if self.of == "B":
-            top = LinearFamily(self.name, slack, series=space.widened(space.middle[None], size))
+            top = LinearFamily(self.name, slack, table=PieceSeries.whole(space.middle[None]).widened(size))
             return (EnergyFamily(self.name, slack, bound, domain=(1.0, 1.0), factors=(top,), energy=shared),)
         if self.of == "C":
             factors = (_velocity(space, size), _fall(shared.below))
@@ -111,27 +112,27 @@ class LoaderPeak(Functional):
         least = self.limit(problem)
         if least is None or not slack.any():
             return ()
-        row = np.append(-slack, 0.0)[None, :]
-        nothing = np.zeros(len(slack))
-        return (LinearFamily(names.at_least(self.name), nothing, bound - float(least), domain=(1.0, 1.0), series=row),)
+        return (LinearFamily.of_row(names.at_least(self.name), -slack, bound - float(least)),)
 
 
-def _velocity(space: PolynomialSpace, size: int) -> EvenFamily:
-    """b as a series in u = 2 t² - 1."""
-    return EvenFamily("b", np.zeros(size), series=space.widened(space.series(1)[::2], size))
+def _even(name: str, series: Array) -> LinearFamily:
+    """A function with a series in u = 2 t² - 1."""
+    return LinearFamily(name, np.zeros(series.shape[1] - 1), table=PieceSeries.whole(series), even=True)
+
+
+def _velocity(space: PolynomialSpace, size: int) -> LinearFamily:
+    return _even("b", widened(space.series(1)[::2], size))
 
 
 def _energy(space: PolynomialSpace, size: int) -> Energy:
-    chord = space.below(np.zeros(size))
-    velocity = _velocity(space, size)
-    if not isinstance(chord, EvenFamily):
+    chord, above = space.below(np.zeros(size)), _velocity(space, size).series.copy()
+    if not isinstance(chord, LinearFamily) or not chord.even:
         raise InputError("a loader needs laws whose peak velocity is in the middle")
-    above = velocity.series.copy()
-    above[0] += space.widened(space.middle[None], size)[0]
-    return Energy(replace(chord, series=-chord.series), replace(velocity, series=above))
+    above[0] += widened(space.middle, size)
+    return Energy(_even("below", -chord.series), _even("above", above))
 
 
-def _fall(below: LinearFamily) -> EvenFamily:
+def _fall(below: LinearFamily) -> LinearFamily:
     """p = q + u dq/du over u = t², of which the acceleration is 4 t p."""
     series = below.series
     fallen = np.zeros_like(series)
@@ -139,7 +140,7 @@ def _fall(below: LinearFamily) -> EvenFamily:
     # u = (1 + v)/2 and dq/du = 2 dq/dv
     for column in fallen.T:
         column[:] = product(np.array([1.0, 1.0]), column.copy())[: len(column)]
-    return EvenFamily("fall", below.slack, series=series + fallen)
+    return _even("fall", series + fallen)
 
 
 B_loader = LoaderPeak("B_loader", 1.0, convex=False, of="B")

@@ -36,6 +36,7 @@ from optlaws.mechanisms.machine.state_space import (
 )
 from optlaws.numbers import Array, numbers, power_of_two
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
+from optlaws.synthesis.families.piece_series import PieceSeries, widened
 from optlaws.synthesis.functionals.makers import PeakSide
 from optlaws.synthesis.functionals.sizes import size_bounds
 from optlaws.synthesis.problem.constants import MAKERS, Functional
@@ -213,19 +214,13 @@ class OutputPeak(OutputConstant):
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         """The output's series, on pieces where it has many."""
         rows = self._cached(space)
-        breaks, series = 1.0 - 2.0 * rows[:, 0, 0] / self.duration, rows[:, 1:]
-        wide = np.zeros((*series.shape[:2], len(slack) + 1))
-        wide[:, :, : space.terms], wide[:, :, -1] = series[:, :, :-1], series[:, :, -1]
+        breaks, unit = np.append(1.0 - 2.0 * rows[:, 0, 0] / self.duration, -1.0), self.unit(space)
+        table = PieceSeries(breaks, rows[:, 1:] / unit).widened(len(slack))
         domain = (-1.0, 1.0 - 2.0 * self.within[0] / self.duration)
-        unit = self.unit(space)
-        slack, bound, wide = slack / unit, bound / unit, wide / unit
-        if len(wide) == 1:
-            return (LinearFamily(self.name, slack, bound, self.signs, domain, series=wide[0]),)
         # the output jumps where the acceleration does: at breaks, or where the motion ends
         smooth = space.continuity > 1 and space.boundary.order > 2
         jumps = bool(self.machine.rows[self.output][1][2]) and not smooth
-        entries = self.name, slack, bound, self.signs, domain
-        return (LinearFamily(*entries, series=wide, breaks=np.append(breaks, -1.0), jumps=jumps),)
+        return (LinearFamily(self.name, slack / unit, bound / unit, self.signs, domain, table=table, jumps=jumps),)
 
     def unit(self, space: LawSpace) -> float:
         """The size of the rows: nearly the base law's output."""
@@ -282,7 +277,7 @@ class OutputRms(OutputConstant):
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConstraintFamily, ...]:
         unit = self.unit(space)
-        wide = space.widened(self._cached(space), len(slack)) / unit
+        wide = widened(self._cached(space), len(slack)) / unit
         return (NormFamily(self.name, slack / unit, bound / unit, matrix=wide),)
 
     def unit(self, space: LawSpace) -> float:

@@ -41,6 +41,7 @@ from optlaws.mechanisms.machine.transforms import (
 from optlaws.numbers import Array, Complex, not_negative, numbers, positive, power_of_two
 from optlaws.numerics import chebyshev
 from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.piece_series import PieceSeries
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.tolerances import NEGLIGIBLE_TERM
@@ -163,11 +164,10 @@ class Residual(Functional):
             counted = np.flatnonzero(np.abs(columns).max(axis=1) > NEGLIGIBLE_TERM * np.abs(columns).max())
             # an output may not see the mode at all
             terms = columns[: counted[-1] + 1 if len(counted) else 1]
-            series = np.zeros((len(terms), len(slack) + 1), dtype=np.complex128)
-            series[:, : columns.shape[1] - 1], series[:, -1] = terms[:, :-1] / unit, terms[:, -1] / unit
+            table = PieceSeries.whole(terms / unit).widened(len(slack))
             domain = (-1.0, 1.0) if self.counts[i] > 1 else (1.0, 1.0)
             room = slack / self._unit_of_slack(unit)
-            families.append(ConeFamily(name, room, bound / unit, domain=domain, series=series))
+            families.append(ConeFamily(name, room, bound / unit, domain=domain, table=table))
         return tuple(families)
 
     def columns(self, space: LawSpace) -> list[Complex]:

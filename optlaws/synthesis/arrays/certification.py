@@ -14,8 +14,9 @@ from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds
 from optlaws.synthesis.arrays.newton_steps import States, Structure, batch_families, locally_optimal, product, with_one
 from optlaws.synthesis.arrays.programs import Numbers, Path
-from optlaws.synthesis.families.family import BatchFamily, LinearFamily, NonlinearFamily, RatioFamily
+from optlaws.synthesis.families.family import BatchFamily, LinearFamily, NonlinearFamily
 from optlaws.synthesis.families.peaks import peaks
+from optlaws.synthesis.families.piece_series import EvenGegenbauer
 from optlaws.synthesis.program.writer import Model
 
 _CERTIFIED_EXCESS = 1e-11  # of a right side, or 1: by so much a row of a certified law may be broken
@@ -133,7 +134,7 @@ def _over_domain(family: LinearFamily) -> Array:
     vanish there, its values are so great that the undivided ones say more.
     """
     low, high = family.domain
-    count, weight = len(family.series), np.ones(1)
+    count, weight, table = family.table.terms, np.ones(1), family.table
     if low == high:
         return np.asarray(family.columns(np.array([low]))[0])
     if family.root:
@@ -141,7 +142,7 @@ def _over_domain(family: LinearFamily) -> Array:
         near, far = np.sqrt(1.0 - high), np.sqrt(1.0 - low)
         u = 1.0 - (near + (far - near) * (nodes(count) + 1.0) / 2.0) ** 2
     else:
-        power = round(family.index - 0.5) if isinstance(family, RatioFamily) else 0
+        power = round(table.index - 0.5) if isinstance(table, EvenGegenbauer) else 0
         count += power
         u = low + (high - low) * (nodes(count) + 1.0) / 2.0
         weight = (((1.0 - u) / 2.0) ** power)[:, None]
@@ -152,7 +153,7 @@ def row_checks_of(model: Model) -> RowChecks:
     """The row checks of a program, cached for programs with the same rows."""
     families = batch_families(model)
     key = tuple(
-        (type(family), id(family.series), family.domain, family.signs) if isinstance(family, LinearFamily) else family
+        (id(family.table), family.domain, family.signs, family.root) if isinstance(family, LinearFamily) else family
         for family in families
     )
     if key not in _CHECKS:

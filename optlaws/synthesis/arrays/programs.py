@@ -113,7 +113,7 @@ def _measured(first: ConstraintFamily, other: ConstraintFamily) -> ConstraintFam
     share = size / other_size
     if np.abs(first.series - share * other.series).max() > _UNITS_ROUNDING * size:
         return other
-    return replace(other, series=first.series, slack=share * other.slack, bound=share * other.bound)
+    return replace(other, table=first.table, slack=share * other.slack, bound=share * other.bound)
 
 
 def _alike(first: ConstraintFamily, other: ConstraintFamily) -> bool:

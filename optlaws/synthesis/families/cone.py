@@ -73,8 +73,6 @@ class ConeFamily(SeriesFamily, NonlinearFamily):
     The place is no k but stands for another parameter, such as a frequency; u = -1 is its least value.
     """
 
-    series: Complex
-
     def k(self, u: Array) -> Array:
         """The place as a number from 0 at u = -1 to 1 at u = 1."""
         return 0.5 * (1.0 + u)

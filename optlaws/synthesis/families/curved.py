@@ -256,7 +256,7 @@ class CurvedFamily(FormulaFamily):
 
     def _series(self, formula: Formula, point: Array) -> Array | None:
         """The series of a formula along each law; None where a limited number of points cannot resolve it."""
-        degrees = {name: len(part.series) - 1 for name, part in self.parts}
+        degrees = {name: part.table.terms - 1 for name, part in self.parts}
         known = degree(formula, {**degrees, "k": 1})
         if known is not None:
             return self._interpolated(formula, point, known + 1)

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, fields, replace
 from functools import wraps
 from typing import Any, Self, TypeVar
 
 import numpy as np
-from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import basis_values, even_gegenbauer_jet, nodes, product, real_parts_of_roots
+from optlaws.numerics.chebyshev import nodes, product
 from optlaws.synthesis.families.peaks import peaks, products
 from optlaws.synthesis.families.piece_series import PieceSeries
 from optlaws.tolerances import AT_END, BESIDE_BREAK, ROW_ROUNDING
@@ -25,8 +24,6 @@ _NO_NORM = 1e-12  # at standstill and in uniform motion a norm has no slope
 Result = TypeVar("Result")
 
 _MOST, _LEAST = 600, 8  # nodes of a family of pieces, and of a piece: its extrema join them
-#: of fewer polynomials' values cosines are quicker than the recurrence
-_SMALL = 4096
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,8 +67,7 @@ class ConstraintFamily(ABC):
     def same_rows(self, other: ConstraintFamily) -> bool:
         """Whether f is the same function of the variables and the place, of families of one kind."""
         common = {field.name for field in fields(ConstraintFamily)}
-        names = [field.name for field in fields(self) if field.name not in common]
-        return type(self) is type(other) and all(_same(getattr(self, name), getattr(other, name)) for name in names)
+        return _same_fields(self, other, [field.name for field in fields(self) if field.name not in common])
 
     @abstractmethod
     def value(self, x: Array, u: Array) -> Array:
@@ -200,92 +196,86 @@ class NonlinearFamily(BatchFamily):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SeriesFamily(BatchFamily):
-    """A family whose f consists of Chebyshev series in u: one for each variable, the constant series last."""
+    """A family whose f consists of polynomials on pieces in u: one for each variable, that of the constant last."""
 
-    series: NDArray[Any]
+    table: PieceSeries
+
+    @property
+    def series(self) -> NDArray[Any]:
+        """Chebyshev series in u, where there is one piece."""
+        return np.asarray(self.table.series[0])
 
     def in_units(self, units: Array, unit: float) -> Self:
-        """The series' columns and the right side in other units."""
-        series = self.series * np.append(units, 1.0) / unit
-        return replace(self, series=series, slack=self.slack * units / unit, bound=self.bound / unit)
-
-    @kept_property
-    def _jet(self) -> NDArray[Any]:
-        """The series with their first and second derivatives beside them."""
-        jet = np.zeros((len(self.series), 3, self.series.shape[1]), self.series.dtype)
-        for nu in range(3):
-            lower = chebyshev.chebder(self.series, nu)
-            jet[: len(lower), nu] = lower
-        return np.asarray(jet.reshape(len(jet), -1))
+        """The functions and the right side in other units."""
+        table = self.table.scaled(np.append(units, 1.0) / unit)
+        return replace(self, table=table, slack=self.slack * units / unit, bound=self.bound / unit)
 
     def columns(self, u: Array) -> NDArray[Any]:
-        """The series' values with two derivatives by u, shape (3, points, variables + 1)."""
-        flat = basis_values(np.minimum(np.maximum(u, -1.0), 1.0), len(self.series)) @ self._jet
-        return np.asarray(flat.reshape(len(u), 3, -1).transpose(1, 0, 2))
+        """The functions with two derivatives by u, shape (3, points, variables + 1)."""
+        return self.table.jets(u)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LinearFamily(SeriesFamily):
-    """f is affine in x: the sum of the series times the variables, of one polynomial or of one on each piece.
+    """f is affine in x: the sum of the table's functions times the variables.
 
     Contacts at breaks are kinks and stay where they are.
     """
 
-    series: Array  #: where there are breaks of shape (pieces, coefficients, variables + 1)
-    breaks: Array | None = None  #: the ends of the pieces in u, descending
-    jumps: bool = False  #: whether f may jump at them
+    jumps: bool = False  #: whether f may jump at breaks
     #: whether sqrt(1 - u), that is sqrt(2k), divides: b <= sqrt(2 D k) follows from b b' <= D
     root: bool = False
     mirrored: bool = False  #: whether it is written from the end of the interval: u = 2k - 1
+    even: bool = False  #: whether f is even about k = 1/2, and written in u = 2 (1-2k)² - 1, of the k in [0, 1/2]
+
+    @classmethod
+    def of_row(
+        cls, name: str, row: Array, bound: float, *, unit: float = 1.0, slack: Array | None = None
+    ) -> LinearFamily:
+        """The single row, row . x <= slack . x + bound, of which row and bound are divided by a unit."""
+        table, slack = PieceSeries.whole(np.append(row / unit, 0.0)[None]), 0.0 * row if slack is None else slack
+        return cls(name, slack, bound / unit, domain=(1.0, 1.0), unit=unit, table=table)
 
     def k(self, u: Array) -> Array:
+        if self.even:
+            return (1.0 - np.sqrt(np.maximum(u + 1.0, 0.0) / 2.0)) / 2.0
         return 0.5 * (1.0 + u) if self.mirrored else super().k(u)
 
     def u(self, k: Array) -> Array:
+        if self.even:
+            return 2.0 * (1.0 - 2.0 * k) ** 2 - 1.0
         return 2.0 * k - 1.0 if self.mirrored else super().u(k)
 
     @property
-    def plain(self) -> bool:
-        """Whether the columns are the series of one polynomial alone."""
-        return self.breaks is None and not self.root
-
-    @kept_property
-    def pieces(self) -> PieceSeries:
-        """The series on every piece."""
-        if self.breaks is None:
-            return PieceSeries(np.array([1.0, -1.0]), self.series[None])
-        return PieceSeries(self.breaks, self.series)
-
-    @property
     def continuable(self) -> bool:
-        """Whether it has no pieces: contacts at kinks are neither fixed at an end nor free."""
-        return self.breaks is None
+        """Whether it has one piece: contacts at kinks are neither fixed at an end nor free."""
+        return len(self.table.series) == 1
 
     @kept_property
     def corners(self) -> Array:
         """The breaks; where f jumps there, the places just before and just after each."""
-        breaks = self.pieces.breaks
+        breaks = self.table.breaks
         if not self.jumps:
             return breaks
         return np.concatenate([breaks[[0, -1]], breaks[1:-1] + BESIDE_BREAK, breaks[1:-1] - BESIDE_BREAK])
 
     def pinned(self, u: Array) -> NDArray[np.bool_]:
         """Whether u is a corner between pieces."""
-        return super().pinned(u) if self.breaks is None else np.isin(u, self.corners)
+        return super().pinned(u) if self.continuable else np.isin(u, self.corners)
 
     def nodes(self) -> Array | None:
         """Of pieces the corners, and inside each as many points as its degree, or fewer where they were too many."""
-        if self.breaks is None:
+        if self.continuable:
             return None
-        count = min(self.series.shape[1], max(_LEAST, _MOST // len(self.breaks)))
+        pieces = len(self.table.series)
+        count = min(self.table.terms, max(_LEAST, _MOST // (pieces + 1)))
         local = nodes(count) if count > 2 else np.empty(0)
-        inner = [self.pieces.global_places(i, local) for i in range(len(self.breaks) - 1)]
-        places = np.concatenate([self.corners, *inner])
+        places = np.concatenate([self.corners, *(self.table.global_places(i, local) for i in range(pieces))])
         return places[(places >= self.domain[0]) & (places <= self.domain[1])]
 
     def columns(self, u: Array) -> Array:
-        """f's columns with two derivatives by u; under a root zero at k = 0, where the series has a zero."""
-        jets = super().columns(u) if self.breaks is None else self.pieces.jets(u)
+        """f's columns with two derivatives by u; under a root zero at k = 0, where the table has a zero."""
+        jets = super().columns(u)
         if not self.root:
             return jets
         near = 1.0 - u < _END_OF_U
@@ -305,22 +295,12 @@ class LinearFamily(SeriesFamily):
         value, slope, curvature = columns @ np.append(x, 1.0)
         return RowJet(value - self.bound, slope, curvature, columns[0, :, :-1], columns[1, :, :-1])
 
-    @kept_property
-    def _parts(self) -> tuple[tuple[NDArray[np.intp], Array], ...]:
-        """Polynomials of f and of its first two derivatives, with their coefficients."""
-        parts = [(np.flatnonzero(series.any(axis=1)), series) for series in np.hsplit(self._jet, 3)]
-        return tuple((counted, np.ascontiguousarray(series[counted])) for counted, series in parts)
-
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """The rows themselves, whatever the law."""
-        if not self.plain:
-            columns = self.columns(u.reshape(-1)).reshape(3, *u.shape, -1)
-            return columns[0], columns[1], np.einsum("mpi,mi->mp", columns[2], point)
-        polynomials = _polynomials(u.reshape(-1), len(self.series))
-        value, slope = ((polynomials[counted].T @ series).reshape(*u.shape, -1) for counted, series in self._parts[:2])
-        counted, series = self._parts[2]
-        bend = np.einsum("nmp,mn->mp", polynomials[counted].reshape(len(counted), *u.shape), point @ series.T)
-        return value, slope, bend
+        if not self.root and type(self.table) is PieceSeries:
+            return self.table.planes(u, point)
+        columns = self.columns(u.reshape(-1)).reshape(3, *u.shape, -1)
+        return columns[0], columns[1], np.einsum("mpi,mi->mp", columns[2], point)
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002 - others need it
         """No Hessian (None), because f is affine."""
@@ -329,7 +309,7 @@ class LinearFamily(SeriesFamily):
     @kept_property
     def rounding(self) -> Array:
         """Rounding bounds of each entry of a row."""
-        return np.asarray(ROW_ROUNDING * np.abs(self.pieces.series).sum(axis=1).max(axis=0))
+        return np.asarray(ROW_ROUNDING * np.abs(self.table.series).sum(axis=1).max(axis=0))
 
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - the same everywhere
         """Rounding bounds of rows at any place."""
@@ -337,66 +317,19 @@ class LinearFamily(SeriesFamily):
 
     def value(self, x: Array, u: Array) -> Array:
         point = np.append(x, 1.0)
-        if self.plain:
-            return np.asarray(chebyshev.chebval(u, self.series @ point))
-        return np.asarray((self.columns(u)[0] if self.root else self.pieces.values(u)) @ point)
+        return np.asarray(self.columns(u)[0] @ point) if self.root else self.table.function(point, u)
 
     def stationary(self, x: Array) -> Array:
-        """Roots of the derivative, and of pieces the corners that may be extrema."""
-        if self.breaks is not None or self.root:
-            return self._stationary(np.append(x, 1.0))
-        slope = np.asarray(chebyshev.chebder(self.series @ np.append(x, 1.0)), dtype=np.float64)
-        return real_parts_of_roots(slope)
+        """Roots of the derivative, and the corners that may be extrema."""
+        return self._stationary(np.append(x, 1.0))
 
     @last_result
     def _stationary(self, point: Array) -> Array:
-        """The same of pieces or under a root, remembered for repeated calls in a round."""
-        series = self.pieces.series @ point
+        """The same, remembered for repeated calls in a round."""
+        series = self.table.series @ point
         if self.root:
-            return np.concatenate([self.corners, *self.pieces.roots(self.pieces.slopes_over_root(series))])
-        return self.pieces.stationary(series, self.corners, jumps=self.jumps)
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class EvenFamily(LinearFamily):
-    """A linear family of laws that are even about k = 1/2, as series in u = 2 (1-2k)² - 1."""
-
-    def k(self, u: Array) -> Array:
-        """The k in [0, 1/2] that belongs to u."""
-        return (1.0 - np.sqrt(np.maximum(u + 1.0, 0.0) / 2.0)) / 2.0
-
-    def u(self, k: Array) -> Array:
-        """The parameter u = 2 (1-2k)² - 1 of a place k."""
-        return 2.0 * (1.0 - 2.0 * k) ** 2 - 1.0
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class RatioFamily(EvenFamily):
-    """An even family whose columns are Gegenbauer polynomials, `scale` times; the last one, of degree 0, is the base's.
-
-    Their values grow so much toward k = 0 that a series would lose the digits of the others.
-    """
-
-    index: float = 0.5
-    scale: Array = field(default_factory=lambda: np.ones(1))
-
-    @property
-    def plain(self) -> bool:
-        """False: they grow too much."""
-        return False
-
-    def in_units(self, units: Array, unit: float) -> Self:
-        """The base's column in other units; the columns of the coordinates are unchanged."""
-        factors = np.append(units[: len(self.scale) - 1] / unit, 1.0 / unit)
-        return replace(super().in_units(units, unit), scale=self.scale * factors)
-
-    def columns(self, u: Array) -> Array:
-        """f's columns with two derivatives by u, by recurrence."""
-        polynomials = even_gegenbauer_jet(self.index, len(self.scale) - 1, u)
-        shaped = np.zeros((3, len(u), len(self.slack) + 1))
-        shaped[:, :, : len(self.scale) - 1] = polynomials[:, :, 1:] * self.scale[:-1]
-        shaped[:, :, -1] = polynomials[:, :, 0] * self.scale[-1]
-        return shaped
+            return np.concatenate([self.corners, *self.table.roots(self.table.slopes_over_root(series))])
+        return self.table.stationary(series, self.corners, jumps=self.jumps)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -468,14 +401,11 @@ class ProductFamily(NonlinearFamily):
         return self.first.value(x, u) * self.second.value(x, u)
 
     def stationary(self, x: Array) -> Array:
-        """Roots of g' h + g h', and of pieces the corners that may be extrema."""
-        point = np.append(x, 1.0)
-        g, h = self.first.series @ point, self.second.series @ point
-        if self.second.breaks is not None:
-            both = np.stack([product(*pair) for pair in zip(g, h, strict=True)])
-            return self.second.pieces.stationary(both, self.second.corners, jumps=self.second.jumps)
-        slopes = [product(np.asarray(chebyshev.chebder(p)), q) for p, q in ((g, h), (h, g))]
-        return real_parts_of_roots(np.asarray(chebyshev.chebadd(*slopes)))
+        """Roots of the slope, and the corners that may be extrema."""
+        point, table = np.append(x, 1.0), self.second.table
+        factors = (self.first.table.series @ point, table.series @ point)
+        both = np.stack([product(*pair) for pair in zip(*factors, strict=True)])
+        return table.stationary(both, self.second.corners, jumps=self.second.jumps)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -586,24 +516,17 @@ class Program:
         return max((float(family.extremes(x)[2].max()) for family in binding), default=0.0)
 
 
-def _polynomials(u: Array, count: int) -> Array:
-    """Chebyshev polynomials at many places, shape (count, places)."""
-    if u.size * count < _SMALL:
-        return np.asarray(np.cos(np.arange(count)[:, None] * np.arccos(np.minimum(np.maximum(u, -1.0), 1.0))))
-    polynomials = np.empty((max(count, 2), len(u)))
-    polynomials[0], polynomials[1] = 1.0, np.clip(u, -1.0, 1.0)
-    twice = 2.0 * polynomials[1]
-    for n in range(2, count):
-        np.multiply(twice, polynomials[n - 1], out=polynomials[n])
-        polynomials[n] -= polynomials[n - 2]
-    return polynomials[:count]
-
-
 def _same(first: Any, other: Any) -> bool:
     if first is other:
         return True
     if isinstance(first, ConstraintFamily):
         return first.same_rows(other)
+    if isinstance(first, PieceSeries):
+        return _same_fields(first, other, [field.name for field in fields(first)])
     if isinstance(first, tuple):
         return len(first) == len(other) and all(map(_same, first, other))
     return np.array_equal(first, other) if isinstance(first, np.ndarray) else bool(first == other)
+
+
+def _same_fields(first: object, other: object, names: Sequence[str]) -> bool:
+    return type(first) is type(other) and all(_same(getattr(first, name), getattr(other, name)) for name in names)

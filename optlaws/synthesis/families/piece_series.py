@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -13,10 +13,26 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import product, real_parts_of_roots
+from optlaws.numerics.chebyshev import basis_values, even_gegenbauer_jet, product, real_parts_of_roots
 
 _FLAT_SLOPE = 1e-9  # of a series: a slope that is less is flat
 _SHARING = 8  # points of a piece, in the mean, from which on no copy of its series is made for each
+
+_SMALL = 4096  # values of polynomials: of fewer cosines are quicker than the recurrence
+
+#: the ends of one piece that is the whole interval
+WHOLE = np.array([1.0, -1.0])
+
+
+def widened(columns: NDArray[Any], size: int) -> NDArray[Any]:
+    """Columns for `size` variables: those beyond the coordinates are zero, the base law's stays last.
+
+    >>> widened(np.array([1.0, 2.0, 3.0]), 4).tolist()
+    [1.0, 2.0, 0.0, 0.0, 3.0]
+    """
+    wide = np.zeros((*columns.shape[:-1], size + 1), columns.dtype)
+    wide[..., : columns.shape[-1] - 1], wide[..., -1] = columns[..., :-1], columns[..., -1]
+    return wide
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,17 +44,37 @@ class PieceSeries:
     """
 
     breaks: Array
-    series: Array
+    series: NDArray[Any]
 
-    def place(self, u: Array) -> tuple[NDArray[np.intp], Array, Array]:
-        """Piece, local variable and its slope by u; a break belongs to the piece at smaller u, that is later k."""
-        count = len(self.breaks) - 1
+    @classmethod
+    def whole(cls, series: NDArray[Any]) -> Self:
+        """One polynomial on the whole interval, a column of its series for each function."""
+        return cls(WHOLE, series[None])
+
+    @property
+    def terms(self) -> int:
+        """The coefficients of each series."""
+        return int(self.series.shape[1])
+
+    def widened(self, size: int) -> PieceSeries:
+        """The functions for `size` variables, as `widened` has columns."""
+        return replace(self, series=widened(self.series, size))
+
+    def scaled(self, factors: Array) -> Self:
+        """The functions times factors."""
+        return replace(self, series=self.series * factors)
+
+    def place(self, u: Array) -> tuple[NDArray[np.intp], Array]:
+        """Piece and local variable; a break belongs to the piece at smaller u, that is later k."""
+        count = len(self.series)
+        if count == 1:
+            high, low = self.breaks.tolist()
+            # on [-1, 1] the variable is u itself, without rounding
+            local = u * (2.0 / (high - low)) - (high + low) / (high - low)
+            return np.zeros(len(u), dtype=np.intp), np.minimum(np.maximum(local, -1.0), 1.0)
         piece = np.clip(np.searchsorted(-self.breaks, -u, side="right") - 1, 0, count - 1)
         high, low = self.breaks[piece], self.breaks[piece + 1]
-        slope = 2.0 / (high - low)
-        # of one polynomial on [-1, 1] the variable is u itself, without rounding
-        local = (u - low) * slope - 1.0 if count > 1 else u * slope - (high + low) / (high - low)
-        return piece, np.clip(local, -1.0, 1.0), slope
+        return piece, np.clip((u - low) * (2.0 / (high - low)) - 1.0, -1.0, 1.0)
 
     def derivative(self) -> PieceSeries:
         """Series of the derivative by u."""
@@ -48,7 +84,7 @@ class PieceSeries:
 
     def values(self, u: Array) -> Array:
         """Columns at the points u, shape (points, columns)."""
-        piece, local, _ = self.place(u)
+        piece, local = self.place(u)
         return self.sums(chebyshev.chebvander(local, self.series.shape[1] - 1), piece)
 
     def sums(self, basis: NDArray[np.floating[Any]], piece: NDArray[np.intp]) -> Array:
@@ -74,15 +110,46 @@ class PieceSeries:
         return places
 
     @kept_property
-    def _derivatives(self) -> tuple[PieceSeries, PieceSeries, PieceSeries]:
-        first = self.derivative()
-        return self, first, first.derivative()
+    def _jet(self) -> PieceSeries:
+        """The series with their first and second derivatives by u beside them."""
+        jet = np.zeros((*self.series.shape[:2], 3, self.series.shape[2]), self.series.dtype)
+        each = self
+        for nu in range(3):
+            jet[:, : each.terms, nu] = each.series
+            each = each.derivative()
+        return PieceSeries(self.breaks, jet.reshape(*self.series.shape[:2], -1))
 
-    def jets(self, u: Array) -> Array:
+    def jets(self, u: Array) -> NDArray[Any]:
         """Columns with two derivatives by u at the points u, shape (3, points, columns)."""
-        piece, local, _ = self.place(u)
-        basis = chebyshev.chebvander(local, self.series.shape[1] - 1)
-        return np.stack([each.sums(basis[:, : each.series.shape[1]], piece) for each in self._derivatives])
+        piece, local = self.place(u)
+        flat = self._jet.sums(basis_values(local, self.terms), piece)
+        return np.asarray(flat.reshape(len(u), 3, self.series.shape[2]).transpose(1, 0, 2))
+
+    def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
+        """Columns of one piece with their slopes by u at places of many laws, and the laws' second derivatives there.
+
+        The places are rows of u, (laws, places), and the laws those of `point`.
+        """
+        polynomials = _polynomials(u.reshape(-1), self.terms)
+        (first, value), (second, slope), (third, bend) = self._parts
+        columns = (
+            (polynomials[used].T @ series).reshape(*u.shape, -1) for used, series in ((first, value), (second, slope))
+        )
+        return *columns, np.einsum("nmp,mn->mp", polynomials[third].reshape(-1, *u.shape), point @ bend.T)
+
+    @kept_property
+    def _parts(self) -> list[tuple[NDArray[np.intp], Array]]:
+        """The polynomials that the functions and their derivatives have, with their coefficients."""
+        parts = [(np.flatnonzero(series.any(axis=1)), series) for series in np.hsplit(self._jet.series[0], 3)]
+        return [(used, np.ascontiguousarray(series[used])) for used, series in parts]
+
+    def function(self, point: Array, u: Array) -> NDArray[Any]:
+        """The sum of the functions times numbers, at the points u."""
+        piece, local = self.place(u)
+        series = self.series @ point
+        if len(series) == 1:
+            return np.asarray(chebyshev.chebval(local, series[0]))
+        return np.asarray(chebyshev.chebval(local, series[piece].T, tensor=False))
 
     def mirrored(self) -> PieceSeries:
         """The functions of -u.
@@ -111,6 +178,8 @@ class PieceSeries:
             The ends and the breaks, where it `jumps` the places on both sides of each.
         """
         slopes = [np.asarray(chebyshev.chebder(series), dtype=np.float64) for series in function]
+        if len(slopes) == 1:
+            return np.concatenate([corners, *self.roots(slopes)])
         steep = [
             slope if np.abs(slope).max() > _FLAT_SLOPE * np.abs(series).max() else np.zeros(1)
             for slope, series in zip(slopes, function, strict=True)
@@ -134,3 +203,36 @@ class PieceSeries:
             slope = product(way, np.asarray(chebyshev.chebder(series), dtype=np.float64))
             slopes.append(np.asarray(chebyshev.chebadd(series, slope)))
         return slopes
+
+
+@dataclass(frozen=True, eq=False)
+class EvenGegenbauer(PieceSeries):
+    """Gegenbauer polynomials of even degree in 1 - 2k, `scale` times; the last, of degree 0, is the base law's.
+
+    Their values grow so much toward k = 0 that their series, in u = 2 (1-2k)² - 1, would lose the digits of the others.
+    """
+
+    index: float = 0.5
+    scale: Array = field(default_factory=lambda: np.ones(1))
+
+    def scaled(self, factors: Array) -> Self:
+        count = len(self.scale) - 1
+        return replace(super().scaled(factors), scale=self.scale * np.append(factors[:count], factors[-1]))
+
+    def jets(self, u: Array) -> Array:
+        """Columns with two derivatives by u, by recurrence."""
+        polynomials = even_gegenbauer_jet(self.index, len(self.scale) - 1, u)
+        return widened(np.roll(polynomials, -1, axis=2) * self.scale, self.series.shape[2] - 1)
+
+
+def _polynomials(u: Array, count: int) -> Array:
+    """Chebyshev polynomials at many places, shape (count, places)."""
+    if u.size * count < _SMALL:
+        return np.asarray(np.cos(np.arange(count)[:, None] * np.arccos(np.minimum(np.maximum(u, -1.0), 1.0))))
+    polynomials = np.empty((max(count, 2), len(u)))
+    polynomials[0], polynomials[1] = 1.0, np.clip(u, -1.0, 1.0)
+    twice = 2.0 * polynomials[1]
+    for n in range(2, count):
+        np.multiply(twice, polynomials[n - 1], out=polynomials[n])
+        polynomials[n] -= polynomials[n - 2]
+    return polynomials[:count]

@@ -15,6 +15,7 @@ from optlaws.numerics.chebyshev import from_values, interpolated, nodes
 from optlaws.numerics.chebyshev import gauss as gauss_rule
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.families.names import mirrored
+from optlaws.synthesis.families.piece_series import PieceSeries
 from optlaws.tolerances import VALUE_ROUNDING
 
 if TYPE_CHECKING:
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace
 
 
-_WHOLE = (1.0, -1.0)
 _PLACES = 7
 
 
@@ -92,16 +92,12 @@ def rows(space: LawSpace, side: Side, slack: Array, bound: float) -> LinearFamil
         family = space.combination(lowest, combined, side.name, slack, bound, signs=side.signs)
         return replace(family, domain=(max(domain[0], family.domain[0]), min(domain[1], family.domain[1])))
     edges = edges_of(space, motion)
-    if edges == _WHOLE:
-        wide = space.widened(_series(space, motion, _WHOLE), len(slack))
-        return LinearFamily(side.name, slack, bound, side.signs, domain, series=wide)
     series = [_series(space, motion, ends) for ends in pairwise(edges)]
-    stacked = np.zeros((len(series), max(map(len, series)), len(slack) + 1))
+    stacked = np.zeros((len(series), max(map(len, series)), space.terms + 1))
     for i, coefficients in enumerate(series):
-        stacked[i, : len(coefficients)] = space.widened(coefficients, len(slack))
-    jumps = any(space.jumps(nu) for nu in motion.orders)
-    breaks = np.array(edges)
-    return LinearFamily(side.name, slack, bound, side.signs, domain, series=stacked, breaks=breaks, jumps=jumps)
+        stacked[i, : len(coefficients)] = coefficients
+    table, jumps = PieceSeries(np.array(edges), stacked).widened(len(slack)), any(map(space.jumps, motion.orders))
+    return LinearFamily(side.name, slack, bound, side.signs, domain, table=table, jumps=jumps)
 
 
 def edges_of(space: LawSpace, motion: MotionFormula) -> tuple[float, ...]:

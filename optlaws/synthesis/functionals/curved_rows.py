@@ -20,6 +20,7 @@ from optlaws.synthesis.families import names
 from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
 from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
+from optlaws.synthesis.families.piece_series import widened
 from optlaws.synthesis.functionals.affine_rows import Side, edges_of, rows
 from optlaws.tolerances import RULES_AGREE
 
@@ -96,7 +97,7 @@ def integral_rows(
     used = tuple(sorted(_degrees(space, motion)))
     # exact where the formula is a polynomial of k
     k, weights = _rule(rule_edges(space, motion), rule_length(space, motion))
-    columns = np.stack([space.widened(columns_of(space, ORDERS[symbol], k), len(slack)) for symbol in used])
+    columns = np.stack([widened(columns_of(space, ORDERS[symbol], k), len(slack)) for symbol in used])
     plain = IntegralFamily(
         name,
         slack,
@@ -117,7 +118,7 @@ def _kinked(space: LawSpace, motion: MotionFormula, plain: IntegralFamily) -> Ki
 
     def rows(turn: int, k: Array) -> Array:
         several = (columns_of(space, ORDERS[name] + turn, k) for name in plain.names)
-        return np.array([space.widened(columns, len(plain.slack)) for columns in several])
+        return np.array([widened(columns, len(plain.slack)) for columns in several])
 
     given = {field.name: getattr(plain, field.name) for field in fields(plain)}
     length = rule_length(space, motion, between_kinks=True)

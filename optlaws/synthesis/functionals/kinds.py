@@ -18,6 +18,7 @@ from optlaws.laws import MotionLaw
 from optlaws.numbers import Array, power_of_two
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
+from optlaws.synthesis.families.piece_series import widened
 from optlaws.synthesis.functionals.affine_rows import columns, gauss, rows, sampled, sides
 from optlaws.synthesis.functionals.along_law import extremes_along, integral_along, value_along
 from optlaws.synthesis.functionals.curved_rows import (
@@ -106,9 +107,7 @@ class OfFormula(Functional):
         beneath = self.beneath(boxes_of(problem), symmetric=space.symmetric)
         families = tuple(branch_rows(space, branch, slack, bound) for branch in beneath)
         if isfinite(floor) and slack.any():
-            row = np.append(-slack, 0.0)[None, :]
-            least = LinearFamily(names.at_least(self.name), 0.0 * slack, -floor, (1.0,), (1.0, 1.0), series=row)
-            return (*families, least)
+            return (*families, LinearFamily.of_row(names.at_least(self.name), -slack, -floor))
         return families
 
     def branches(self, *, symmetric: bool) -> list[Branch]:  # noqa: ARG002 - what others of its kind need
@@ -209,7 +208,7 @@ class FormulaRms(OfFormula):
             root, square = float(np.sqrt(self.length)), squared(self.motion)
             return (integral_rows(space, square, self.name, slack * root, bound * root, root=True, convex=self.convex),)
         matrix = np.vstack([self._roots(space, half) for half in self.parts(symmetric=space.symmetric)])
-        return (NormFamily(self.name, slack, bound, matrix=space.widened(matrix, len(slack))),)
+        return (NormFamily(self.name, slack, bound, matrix=widened(matrix, len(slack))),)
 
     def _roots(self, space: LawSpace, motion: MotionFormula) -> Array:
         u, weights = gauss(space, motion)

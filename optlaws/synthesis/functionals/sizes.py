@@ -82,7 +82,7 @@ def _rows(family: LinearFamily, law: Array, steps: Array, *, twofold: bool) -> A
     low, high = family.domain
     places = family.nodes()
     if places is None:
-        places = low + (high - low) * (1.0 + nodes(len(family.series) + 1)) / 2.0
+        places = low + (high - low) * (1.0 + nodes(family.table.terms + 1)) / 2.0
     columns = np.delete(family.columns(places)[0], -2, axis=1) / family.slack[-1]
     rows = np.column_stack([columns[:, :-1] @ steps, columns @ np.append(law, 1.0)])
     sizes = np.linalg.norm(rows[:, :-1], axis=1)

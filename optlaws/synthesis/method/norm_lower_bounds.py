@@ -78,9 +78,8 @@ def _turned(
 def _along(
     program: Program, family: NormFamily, near: ActiveSet, direction: Array, low: float
 ) -> tuple[Program, ActiveSet] | None:
-    row = LinearFamily(
-        family.name, np.zeros(program.size), -low, (1.0,), (1.0, 1.0), series=-(direction @ family.matrix)[None]
-    )
+    *shown, constant = (direction @ family.matrix).tolist()
+    row = LinearFamily.of_row(family.name, -np.array(shown), constant - low)
     with_row = replace(program, families=(*program.families, row))
     state = solve(with_row, start=near.x if program.curved else None, rounds=_ROUNDS).optimum
     return None if state is None else (with_row, state)

@@ -16,6 +16,7 @@ from optlaws.numbers import Array
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Program
 from optlaws.synthesis.families.names import RowName, VariableName
+from optlaws.synthesis.families.piece_series import widened
 from optlaws.synthesis.problem.combined import facing, floats
 from optlaws.synthesis.problem.constants import B, Functional, PowerConstant
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
@@ -216,8 +217,7 @@ class _Writer:
 
     def row(self, name: str, row: Array, bound: float, unit: float = 1.0) -> None:
         """A row, row . x <= bound, divided by its unit."""
-        series = np.append(row / unit, 0.0)[None, :]
-        self.families.append(LinearFamily(name, self.spare, bound / unit, (1.0,), (1.0, 1.0), unit=unit, series=series))
+        self.families.append(LinearFamily.of_row(name, row, bound, unit=unit, slack=self.spare))
 
     def _constraints(self) -> None:
         problem = self.problem
@@ -324,7 +324,7 @@ class _Writer:
         for part, name in zip(parts, halves, strict=False):
             if window.value:
                 columns = formula_columns(self.space, part, np.array([1.0 - 2.0 * part.start]))
-                row = self.space.widened(columns, self.size)[0]
+                row = widened(columns, self.size)[0]
                 self.equation(repr(window), row[:-1], window.high - float(row[-1]), unit)
                 continue
             for sign, bound in ((1.0, window.high), (-1.0, -window.low)):

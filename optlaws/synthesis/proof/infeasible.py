@@ -7,8 +7,6 @@ from dataclasses import replace
 from itertools import product
 from math import ceil, floor
 
-import numpy as np
-
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.cone import ConeFamily
@@ -143,8 +141,7 @@ def falls_for_ever(problem: Problem) -> bool:
         return False
     model = model_of(problem)
     program = model.program
-    row = np.append(-program.objective, 0.0)[None, :]
-    ground = LinearFamily("objective at least", np.zeros(program.size), _DEPTH, (1.0,), (1.0, 1.0), series=row)
+    ground = LinearFamily.of_row("objective at least", -program.objective, _DEPTH)
     bounded = replace(program, families=(*program.families, ground))
     deepest = solve(bounded).optimum
     # so far down nothing shows which contacts are exact: a law that keeps all bounds is enough

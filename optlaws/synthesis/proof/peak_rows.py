@@ -58,10 +58,8 @@ class PeakRows:
         limits = problem.range(peak.name)
         self.low = inf if limits is None else limits.low
         self.model = model_of(problem)
-        objective = np.append(self.model.program.objective, 0.0)[None, :]
-        most = claim / self.model.unit * _UPWARD
-        nothing = np.zeros(self.model.program.size)
-        row = LinearFamily(CLAIM, nothing, most, (1.0,), (1.0, 1.0), unit=self.model.unit, series=objective)
+        unit = self.model.unit
+        row = LinearFamily.of_row(CLAIM, unit * self.model.program.objective, claim * _UPWARD, unit=unit)
         self._program = replace(self.model.program, families=(*self.model.program.families, row))
         self._moments = moments(self.model, Sublevel.of(self.model).greatest_values(claim))
         self._curvatures: dict[float, list[float]] = {}

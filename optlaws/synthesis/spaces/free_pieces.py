@@ -100,8 +100,8 @@ class PieceSpace(LawSpace):
         whole = len(self.k) == 2 and not self.symmetric
         if order == 1 or whole or self.boundary != BoundaryConditions.rest(order):
             return super().forward(slack)
-        given = self.given(above_rest(self.pieces(1), self.pieces(order), order), len(slack))
-        return LinearFamily(RowName.RATIO, slack, domain=self.domain, **given)
+        table = above_rest(self.pieces(1), self.pieces(order), order).widened(len(slack))
+        return LinearFamily(RowName.RATIO, slack, domain=self.domain, table=table)
 
     def equations(self) -> list[Equation]:
         """The end conditions that the base law and the splines do not keep by themselves."""

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from functools import lru_cache
 from sys import maxsize
-from typing import Any
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -18,9 +17,9 @@ from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import basis_values, from_values, gegenbauer, nodes
-from optlaws.synthesis.families.family import ConstraintFamily, EvenFamily, LinearFamily, RatioFamily
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily
 from optlaws.synthesis.families.names import RowName
-from optlaws.synthesis.families.piece_series import PieceSeries
+from optlaws.synthesis.families.piece_series import EvenGegenbauer, PieceSeries
 from optlaws.synthesis.spaces.divided_rows import chord
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, law_from_z
 from optlaws.synthesis.spaces.space import LawSpace
@@ -138,18 +137,14 @@ class PolynomialSpace(LawSpace):
 
     def pieces(self, nu: int) -> PieceSeries:
         """The series on the whole interval, of symmetric laws too."""
-        return PieceSeries(np.array([1.0, -1.0]), self.series(nu)[None])
-
-    def given(self, series: PieceSeries, size: int, *, jumps: bool = False) -> dict[str, Any]:
-        """Columns of families of one polynomial."""
-        return {"series": self.widened(series.series[0], size), "jumps": jumps}
+        return PieceSeries.whole(self.series(nu))
 
     def backward(self, slack: Array, bound: float) -> LinearFamily:
         """Rows -b <= slack . x + bound; b is even about 1/2 where the law is symmetric."""
         if not self.symmetric:
             return super().backward(slack, bound)
-        series = self.widened(self.series(1)[::2], len(slack))
-        return EvenFamily(RowName.VELOCITY, slack, bound, (-1.0,), series=series)
+        table = PieceSeries.whole(self.series(1)[::2]).widened(len(slack))
+        return LinearFamily(RowName.VELOCITY, slack, bound, (-1.0,), table=table, even=True)
 
     def columns(self, nu: int, u: Array) -> Array:
         """The derivative of order nu at places u = 1 - 2k: free functions, then the base law."""
@@ -171,10 +166,9 @@ class PolynomialSpace(LawSpace):
 
     def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
         """Rows b <= b(peak) of laws with c(peak) = 0, divided by (2k - 2 peak)²: else they were ill posed."""
-        if self.symmetric:
-            return EvenFamily(RowName.BELOW_PEAK, slack, series=self.widened(-_chord(self.series(1)[::2]), len(slack)))
-        series = self.widened(self._below(1.0 - 2.0 * peak), len(slack))
-        return LinearFamily(RowName.BELOW_PEAK, slack, domain=self.domain, series=series)
+        series = -_chord(self.series(1)[::2]) if self.symmetric else self._below(1.0 - 2.0 * peak)
+        table = PieceSeries.whole(series).widened(len(slack))
+        return LinearFamily(RowName.BELOW_PEAK, slack, table=table, even=self.symmetric)
 
     def _below(self, centre: float) -> Array:
         j = self.series(3)
@@ -187,11 +181,10 @@ class PolynomialSpace(LawSpace):
             return super().forward(slack)
         scale = np.append(self._ratio_scale, 1.0)
         columns = gegenbauer(self.order - 0.5, int(self.index[-1]), self._u)[np.append(self.index, 0)] * scale[:, None]
-        series = -from_values(columns.T)
-        if not self.symmetric:
-            return LinearFamily(RowName.RATIO, slack, domain=self.domain, series=self.widened(series, len(slack)))
-        ratio = self.widened(series[::2], len(slack))
-        return RatioFamily(RowName.RATIO, slack, series=ratio, index=self.order - 0.5, scale=-scale)
+        table = PieceSeries.whole(-from_values(columns.T)).widened(len(slack))
+        if self.symmetric:
+            table = EvenGegenbauer(table.breaks, table.series[:, ::2], self.order - 0.5, -scale)
+        return LinearFamily(RowName.RATIO, slack, table=table, even=self.symmetric)
 
     @kept_property
     def _ratio_scale(self) -> Array:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -20,7 +19,7 @@ from optlaws.synthesis.families.family import (
     ProductFamily,
 )
 from optlaws.synthesis.families.names import RowName
-from optlaws.synthesis.families.piece_series import PieceSeries
+from optlaws.synthesis.families.piece_series import PieceSeries, widened
 from optlaws.synthesis.spaces.divided_rows import below_peak
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
@@ -114,8 +113,8 @@ class LawSpace(ABC):
         signs: tuple[float, ...] = (1.0, -1.0),
     ) -> LinearFamily:
         """Rows s (w0 a^(nu) + w1 a^(nu+1) + ...) <= slack . x + bound, on the space's part of the interval."""
-        given = self.given(self.combined(nu, weights), len(slack), jumps=self.jumps(nu + len(weights) - 1))
-        return LinearFamily(name, slack, bound, signs, self.domain, **given)
+        table, jumps = self.combined(nu, weights).widened(len(slack)), self.jumps(nu + len(weights) - 1)
+        return LinearFamily(name, slack, bound, signs, self.domain, table=table, jumps=jumps)
 
     def combined(self, nu: int, weights: tuple[float, ...]) -> PieceSeries:
         """Series of w0 a^(nu) + w1 a^(nu+1) + ..., the base law's as the last column."""
@@ -136,10 +135,6 @@ class LawSpace(ABC):
                 f"beyond every bound: give a continuity of at least {nu - 1}"
             )
 
-    def given(self, series: PieceSeries, size: int, *, jumps: bool = False) -> dict[str, Any]:
-        """Columns of families over `size` variables for series of a function, which may jump at breaks."""
-        return {"series": self.widened(series.series, size), "breaks": series.breaks, "jumps": jumps}
-
     def backward(self, slack: Array, bound: float) -> LinearFamily:
         """Rows -b <= slack . x + bound."""
         return self.derivative(1, RowName.VELOCITY, slack, bound, (-1.0,))
@@ -153,7 +148,7 @@ class LawSpace(ABC):
         """The row RMS of a^(nu) <= slack . x + bound."""
         rule = self.quadrature(nu)
         matrix = np.sqrt(rule.weights)[:, None] * rule.values
-        return NormFamily(name, slack, bound, matrix=self.widened(matrix, len(slack)))
+        return NormFamily(name, slack, bound, matrix=widened(matrix, len(slack)))
 
     @abstractmethod
     def pieces(self, nu: int) -> PieceSeries:
@@ -193,8 +188,8 @@ class LawSpace(ABC):
         """Rows b <= b(peak) of laws with c(peak) = 0, divided by their zeros there; symmetric ones have it at 1/2."""
         centre = 1.0 - 2.0 * peak
         smooth = self.continuity > 1 or centre not in self.pieces(2).breaks
-        series = below_peak(self.pieces(2), self.pieces(3), centre, smooth=smooth)
-        return LinearFamily(RowName.BELOW_PEAK, slack, domain=self.domain, **self.given(series, len(slack), jumps=True))
+        table = below_peak(self.pieces(2), self.pieces(3), centre, smooth=smooth).widened(len(slack))
+        return LinearFamily(RowName.BELOW_PEAK, slack, domain=self.domain, table=table, jumps=True)
 
     def forward(self, slack: Array) -> ConstraintFamily:
         """Rows b >= 0, which may be divided by their zeros at the ends for laws from rest to rest."""
@@ -205,8 +200,8 @@ class LawSpace(ABC):
     ) -> ConstraintFamily:
         """Rows |b| / sqrt(2k) <= slack . x for k up to 1/2; |b| / sqrt(2 - 2k) for the other half where `backward`."""
         series = self.combined(1, weights)
-        given = self.given(series.mirrored() if backward else series, len(slack))
-        return LinearFamily(name, slack, 0.0, (1.0, -1.0), (0.0, 1.0), root=True, mirrored=backward, **given)
+        table = (series.mirrored() if backward else series).widened(len(slack))
+        return LinearFamily(name, slack, 0.0, (1.0, -1.0), (0.0, 1.0), table=table, root=True, mirrored=backward)
 
     def quadrature(self, nu: int) -> Quadrature:
         """A rule exact for squares of the derivative of order nu, Gauss's on every piece, and Legendre polynomials."""
@@ -222,10 +217,3 @@ class LawSpace(ABC):
     def equations(self) -> list[Equation]:
         """Conditions that the coordinates must keep; none where the free functions keep them all."""
         return []
-
-    def widened(self, columns: Array, size: int) -> Array:
-        """Columns for `size` variables: those beyond the coordinates are zero, the base law's stays last."""
-        wide = np.zeros((*columns.shape[:-1], size + 1))
-        wide[..., : self.terms] = columns[..., :-1]
-        wide[..., -1] = columns[..., -1]
-        return wide

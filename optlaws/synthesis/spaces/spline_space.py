@@ -105,8 +105,8 @@ class SplineSpace(LawSpace):
             return super().forward(slack)
         series = -self._series(self._parts, self.basis.degree + 1, self._ratio)
         series[:, 1::2] *= -1.0
-        given = self.given(PieceSeries(self.pieces(1).breaks, series), len(slack))
-        return LinearFamily(RowName.RATIO, slack, domain=self.domain, **given)
+        table = PieceSeries(self.pieces(1).breaks, series).widened(len(slack))
+        return LinearFamily(RowName.RATIO, slack, domain=self.domain, table=table)
 
     def law(self, coordinates: Array) -> PiecewiseLaw:
         """The law with the given coordinates, on the breaks of Z."""

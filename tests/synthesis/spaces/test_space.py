@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 from optlaws import BoundaryConditions, Chebyshev, Pieces, Problem
-from tests.internals.synthesis import LawSpace, model_of
+from tests.internals.synthesis import LawSpace, model_of, widened
 
 
 def space_of(**entries: object) -> LawSpace:
@@ -42,7 +42,7 @@ def test_columns_for_more_variables_are_0_but_for_the_base_law() -> None:
     space = space_of(basis=Chebyshev(5))
     columns = space.columns(2, np.array([0.2, -0.4, 0.6]))
     assert columns.shape == (3, space.terms + 1)
-    wide = space.widened(columns, space.terms + 3)
+    wide = widened(columns, space.terms + 3)
     assert wide.shape == (3, space.terms + 4)
     assert wide[:, : space.terms] == pytest.approx(columns[:, :-1])
     assert (wide[:, space.terms : -1] == 0.0).all()

@@ -8,7 +8,7 @@ from numpy.polynomial.chebyshev import chebpts2
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import nodes
 from optlaws.synthesis.families.curved import CurvedFamily
-from optlaws.synthesis.families.family import ConstraintFamily, EvenFamily, Points, Program
+from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, Program
 
 _NEARLY_BINDING = 1e-2  # of a right side, or 1: extrema within this of binding join the points that are held
 _CLOSER = 0.25  # of the distance to the nearest point: how far off extrema further points join
@@ -40,7 +40,7 @@ def _points(family: ConstraintFamily, size: int, even_share: float) -> Points:
         return Points(np.tile(given, len(family.signs)), np.repeat(family.signs, len(given)))
     u, s = [], []
     for i, sign in enumerate(family.signs):
-        if isinstance(family, EvenFamily):
+        if isinstance(family, LinearFamily) and family.even:
             count = int(even_share * size) + 4
             places = chebpts2(count)[::-1]
         elif low == 0.0:

@@ -23,6 +23,7 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.families.curved import IntegralFamily
+from optlaws.synthesis.families.piece_series import widened
 from optlaws.synthesis.functionals.curved_rows import columns_of, rule_cells
 from optlaws.tolerances import BENEATH_ROUNDING, TINY
 
@@ -85,7 +86,7 @@ class ConvexUnderestimator:
     def _taylor(self, nu: int) -> Array:
         space, planes, factor = self.rows.space, [], np.ones_like(self.reach)
         for i in range(space.degree_of(nu) + 1):
-            columns = space.widened(columns_of(space, nu + i, self.middle), self.rows.variables)
+            columns = widened(columns_of(space, nu + i, self.middle), self.rows.variables)
             mapped = self.rows.mapped(columns)
             if i:
                 # what is given has no derivative
