@@ -55,7 +55,8 @@ LIMITS = {
     "J": Limit(jerk_limit, "J", 3),
     "rms": Limit(rms_limit, "RMS", 2),
 }
-VELOCITIES = [1.02, 1.3, 1.5, 1.77, 2.0, 2.4, 3.0, 3.9, 8.0]
+VELOCITIES = [1.02, 1.3, 1.5 - 1e-7, 1.5, 1.5 + 1e-7, 1.77, 2.0, 2.4, 3.0, 3.9, 12.0]
+K = np.linspace(0.0, 1.0, 401)
 JERK_SHARES = [1.0, 1.1, 2.0, 30.0]
 
 each = pytest.mark.parametrize("limits", LIMITS.values(), ids=LIMITS.keys())
@@ -135,6 +136,7 @@ def test_its_law_is_of_its_class_and_attains_it(limits: Limit, B: float, monoton
     assert own(law, limits.constant) == pytest.approx(limits.at(B, monotone=monotone), rel=1e-12)
     assert [law.b(0.5), law.constants.B.value] == pytest.approx([B, B], rel=1e-12)
     assert law.a([0.0, 1.0]) == pytest.approx([0.0, 1.0], abs=1e-12)
+    assert law.a(K) + law.a(1.0 - K) == pytest.approx(1.0, abs=1e-12)
     assert law.extrema(1)[0].value >= (-1e-12 if monotone else -inf)
     if limits.order > 1:
         assert law.b([0.0, 1.0]) == pytest.approx([0.0, 0.0], abs=1e-12 * B)
@@ -190,6 +192,10 @@ def test_the_acceleration_at_a_jerk_is_attained_and_falls_to_that_of_any_jerk(B:
         law = limit_law("C", B, monotone=monotone, J=share * least)
         assert law.constants.C.value == pytest.approx(C, rel=1e-11)
         assert law.constants.J.value == pytest.approx(share * least, rel=1e-7)
+        assert law.constants.B.value == pytest.approx(B, rel=1e-12)
+        assert law.a(K) + law.a(1.0 - K) == pytest.approx(1.0, abs=1e-12)
+        assert law.continuity == 2
+        assert law.c([0.0, 1.0]) == pytest.approx([0.0, 0.0], abs=1e-9 * C)
         values.append(C)
     assert values == sorted(values, reverse=True)
     assert values[-1] > acceleration_limit(B, monotone=monotone)

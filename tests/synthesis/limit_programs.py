@@ -1,13 +1,9 @@
-"""Independent programs whose optima approach the limits from above: steps of jerk, straight velocities, polynomials.
-
-Each is exact for its own family of laws, up to the grid on which polynomials are held to their bounds.
-"""
+"""Independent programs whose optima approach the limits from above: steps of jerk and straight velocities."""
 
 from math import inf, sqrt
 from typing import Any
 
 import numpy as np
-from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 from scipy.optimize import linprog, minimize
 from scipy.sparse import coo_array
@@ -138,38 +134,3 @@ def least_by_velocities(constant: str, B: float, cells: int, *, monotone: bool, 
             return inf
     assert abs(weights @ velocity(answer.x) - 0.5) < 1e-9
     return value
-
-
-def least_of_polynomials(constant: str, B: float, terms: int, *, order: int, monotone: bool) -> float:
-    """Least J or RMS over b = (4k(1-k))^(l-1) sum y_n T_2n(2k-1), b <= B on a dense grid."""
-    x = np.cos(np.linspace(np.pi / 2, 0.0, 40 * terms))
-    edge = chebyshev.Chebyshev([1.0])
-    for _ in range(order - 1):
-        edge *= chebyshev.Chebyshev([0.5, 0.0, -0.5])
-    columns = [edge * chebyshev.Chebyshev.basis(2 * n) for n in range(terms)]
-    b = np.array([column(x) for column in columns]).T
-    j = np.array([4 * column.deriv(2)(x) for column in columns]).T
-    stroke = [column.integ(lbnd=0)(1) for column in columns]
-    middle = [column(0.0) for column in columns]
-    side = np.zeros((len(x), 1))
-    room, right = [np.hstack([b, side])], [np.full(len(x), B)]
-    if monotone:
-        room.append(np.hstack([-b, side]))
-        right.append(np.zeros(len(x)))
-    ends = np.hstack([[stroke, middle], np.zeros((2, 1))])
-    if constant == "J":
-        room += [np.hstack([sign * j, side - 1]) for sign in (1, -1)]
-        right += [np.zeros(len(x))] * 2
-        answer: Any = linprog(
-            np.eye(terms + 1)[-1], np.vstack(room), np.concatenate(right), ends, [1.0, B], (None, None), method="highs"
-        )
-        assert answer.status == 0, answer.message
-        return float(answer.fun)
-    nodes, weights = np.polynomial.legendre.leggauss(2 * terms + 2 * order)
-    c = np.array([2 * column.deriv(1)(nodes) for column in columns]).T
-    gram = c.T @ (c * weights[:, None] / 2)
-    # b <= B does not bind where this is used, so the optimum solves a linear system
-    matrix = np.block([[gram, ends[:, :-1].T], [ends[:, :-1], np.zeros((2, 2))]])
-    y = np.linalg.solve(matrix, np.append(np.zeros(terms), [1.0, B]))[:terms]
-    assert (b @ y).max() <= B * (1 + 1e-9)
-    return sqrt(y @ gram @ y)
