@@ -51,6 +51,7 @@ EXAMPLES: tuple[Basis, ...] = (
     BSplines((0.0, 0.2, 0.5, 0.8, 1.0), 3),
     BSplines(UNEVEN, 3, 2),
     Pieces(4, 5, 3),
+    Pieces(6, 3, 2),
     Pieces((0.0, 0.2, 0.5, 0.8, 1.0), 6, 4),
     Pieces(UNEVEN, 7, 3),
     PeriodicPieces(UNEVEN, 5, 3),
@@ -148,7 +149,7 @@ def test_symmetric_laws_without_freedom_are_refused(name: str) -> None:
 
 @pytest.mark.sample(2)
 @every_basis
-def test_its_laws_keep_the_end_conditions_and_their_symmetry(basis: Basis) -> None:
+def test_its_laws_keep_the_end_conditions_the_symmetry_and_the_continuity(basis: Basis) -> None:
     for space in spaces(basis):
         law, order = space.law(point(space)), space.boundary.order
         start, end = law.boundary_values(order)
@@ -158,6 +159,7 @@ def test_its_laws_keep_the_end_conditions_and_their_symmetry(basis: Basis) -> No
         assert space.stroke == pytest.approx(float(space.boundary.end[0] - space.boundary.start[0]), abs=1e-12)
         if space.symmetric:
             assert law.a(K) + law.a(1.0 - K) == pytest.approx(1.0, abs=1e-11)
+        assert [law.jumps(nu) for nu in range(1, min(getattr(basis, "continuity", 0), 3) + 1) if law.jumps(nu)] == []
 
 
 @pytest.mark.sample(3)

@@ -8,11 +8,9 @@ import numpy as np
 import pytest
 
 from optlaws import (
-    Basis,
     BSplines,
     Chebyshev,
     Pieces,
-    Powers,
     Problem,
     Solution,
     Window,
@@ -173,33 +171,6 @@ def test_the_least_rms_of_all_is_the_parabola_of_velocity() -> None:
     assert solution.objective == pytest.approx(np.sqrt(12.0), rel=1e-13)
     assert solution.constants.B.value == pytest.approx(1.5, rel=1e-9)
     assert solution.best_possible == pytest.approx(np.sqrt(12.0), rel=1e-13)
-
-
-# --- symmetry and degree, for every objective ---
-
-EVEN = ["C", "J", "snap", "rms_c", "rms_j", "C/8 + J/64", "max(C/4, J/32)"]
-
-
-@pytest.mark.sample(6)
-@pytest.mark.parametrize("symmetric", [True, False], ids=["symmetric", "unsymmetric"])
-@pytest.mark.parametrize("minimise", [*EVEN, "D"])
-def test_an_even_degree_adds_nothing_to_symmetric_laws_and_is_no_worse(minimise: str, symmetric: bool) -> None:  # noqa: FBT001
-    lower, even, higher = (
-        synthesize(problem(B=1.859, minimise=minimise, symmetric=symmetric, basis=Chebyshev(n))).objective
-        for n in (7, 8, 9)
-    )
-    assert higher <= even * (1 + 1e-10)
-    assert even <= lower * (1 + 1e-10)
-    if symmetric:
-        assert even == pytest.approx(lower, rel=1e-11)
-
-
-@pytest.mark.parametrize("minimise", EVEN)
-def test_powers_and_chebyshev_give_the_same_optimum(minimise: str) -> None:
-    kinds: list[type[Basis]] = [Powers, Chebyshev]
-    one, other = (synthesize(problem(B=1.7, minimise=minimise, basis=kind(7))) for kind in kinds)  # type: ignore[call-arg]
-    assert one.objective == pytest.approx(other.objective, rel=1e-13)
-    assert one.z_powers == pytest.approx(other.z_powers, rel=1e-8, abs=1e-6)
 
 
 # --- D, which is not convex ---

@@ -35,22 +35,6 @@ def test_powers_and_chebyshev_give_the_same_law(B: float, order: int, degree: in
     assert one.z_powers == pytest.approx(other.z_powers, rel=1e-9)
 
 
-@pytest.mark.sample(2)
-@every_shape
-@pytest.mark.parametrize("kind", [Powers, Chebyshev])
-def test_z_reproduces_the_law_through_eq_8(B: float, order: int, degree: int, kind: type[PolynomialBasis]) -> None:
-    basis = kind(degree)
-    solution = synthesize(Problem(B=B, order=order, basis=basis))
-    assert len(z_of(solution)) == basis.size
-    law = law_from_z(BoundaryConditions.rest(order), z_of(solution), basis)
-    for nu in range(4):
-        expected = solution.law(K, nu)
-        allowed = 1e-9 * float(np.abs(expected).max())
-        if isinstance(basis, Powers) and degree > 11:
-            allowed = rounding(order, z_of(solution), nu)
-        assert law(K, nu) == pytest.approx(expected, abs=allowed)
-
-
 def rounding(order: int, z: Sequence[float], nu: int) -> float:
     """What rounding each power of Z to a double may change: at degree 15 they reach 5e12."""
     nothing = BoundaryConditions((0,) * order, (0,) * order)

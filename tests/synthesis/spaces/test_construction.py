@@ -22,16 +22,6 @@ def conditions(draw: st.DrawFn) -> BoundaryConditions:
 
 
 @given(boundary=conditions(), z=st.lists(values, max_size=8))
-def test_no_choice_of_z_breaks_an_end_condition(boundary: BoundaryConditions, z: list[float]) -> None:
-    law = law_from_z(boundary, z)
-    start, end = law.boundary_values(boundary.order)
-    for nu, (here, there) in enumerate(zip(start, end, strict=True)):
-        size = 1e-9 * max(1.0, law.peak(nu).value)
-        assert here == pytest.approx(boundary.start[nu], abs=size)
-        assert there == pytest.approx(boundary.end[nu], abs=size)
-
-
-@given(boundary=conditions(), z=st.lists(values, max_size=8))
 def test_the_law_is_eq_8_to_the_last_digit(boundary: BoundaryConditions, z: list[float]) -> None:
     order = boundary.order
     law = law_from_z(boundary, z)
@@ -67,13 +57,6 @@ def test_rest_to_rest_without_z_is_the_smoothstep(order: int) -> None:
     law = law_from_z(BoundaryConditions.rest(order))
     assert law == smoothstep(order)
     assert law.b(K) == pytest.approx((K * (1 - K)) ** (order - 1) / beta(order, order), abs=1e-12)
-
-
-def test_an_end_velocity_and_an_end_acceleration_are_part_of_the_construction() -> None:
-    boundary = BoundaryConditions((0, 0.5, -1), (2, 0.25, 3))
-    law = law_from_z(boundary, [7, -5, 2])
-    assert law.boundary_values(3)[0] == pytest.approx((0, 0.5, -1), abs=1e-12)
-    assert law.boundary_values(3)[1] == pytest.approx((2, 0.25, 3), abs=1e-12)
 
 
 def test_z_in_the_chebyshev_basis_is_the_same_z() -> None:

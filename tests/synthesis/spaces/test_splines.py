@@ -82,29 +82,6 @@ def test_one_piece_is_bernstein() -> None:
     assert found.z == pytest.approx(other.z, rel=1e-8, abs=1e-8)
 
 
-@given(bases, st.integers(1, 4), st.integers(0, 1000))
-def test_no_choice_of_z_breaks_the_ends_or_the_continuity(basis: BSplines, order: int, seed: int) -> None:
-    conditions = BoundaryConditions((0.0, 0.5, -1.0, 2.0)[:order], (1.0, 0.25, 3.0, 0.0)[:order])
-    law = law_from_z(conditions, np.random.default_rng(seed).normal(size=basis.size), basis)
-    start, end = law.boundary_values(order)
-    assert start == pytest.approx(conditions.start, abs=1e-10)
-    assert end == pytest.approx(conditions.end, abs=1e-10)
-    for nu in range(1, min(basis.continuity, 3) + 1):
-        assert law.jumps(nu) == ()
-
-
-@given(bases, st.integers(1, 4), st.integers(0, 1000))
-def test_no_coordinates_break_the_ends_or_the_continuity(basis: BSplines, order: int, seed: int) -> None:
-    conditions = BoundaryConditions((0.0, 0.5, -1.0, 2.0)[:order], (1.0, 0.25, 3.0, 0.0)[:order])
-    space = spline_space(conditions, basis, symmetric=False)
-    law = space.law(np.random.default_rng(seed).normal(size=space.terms))
-    curves = Judged(law).derivatives
-    ends = [[float(curve(k)) for curve in curves[:order]] for k in (0.0, 1.0)]
-    assert ends == [pytest.approx(conditions.start, abs=1e-9), pytest.approx(conditions.end, abs=1e-9)]
-    for nu in range(1, min(basis.continuity, 3) + 1):
-        assert law.jumps(nu) == ()
-
-
 PROBLEMS = [
     Problem(B=1.859, order=3, basis=BSplines(6, 3)),
     Problem(B=1.859, order=3, basis=BSplines(6, 3), symmetric=False),
@@ -307,38 +284,11 @@ def test_jerk_in_four_equal_steps_is_found_exactly() -> None:
     assert solution.lower_bound == pytest.approx(32.0, rel=1e-9)
 
 
-@pytest.mark.parametrize(("degree", "continuity"), [(2, 1), (3, 2), (4, 2), (5, 4), (6, 3)])
-@pytest.mark.parametrize("symmetric", [True, False])
-def test_laws_keep_their_end_conditions_and_continuity(degree: int, continuity: int, *, symmetric: bool) -> None:
-    order = min(3, continuity + 1)
-    basis = Pieces(6, degree=degree, continuity=continuity)
-    law = synthesize(Problem(order=order, minimise="rms_c", basis=basis, symmetric=symmetric)).law
-    assert isinstance(law, PiecewiseLaw)
-    assert law.continuity >= continuity
-    start, end = law.boundary_values(order)
-    assert start == pytest.approx([0.0] * order, abs=1e-10)
-    assert end == pytest.approx([1.0, *[0.0] * (order - 1)], abs=1e-10)
-
-
-def test_end_velocities_are_kept() -> None:
-    ends = BoundaryConditions((0, 0, 0), (1, 0.5, 0))
-    law = synthesize(Problem(boundary=ends, symmetric=False, basis=Pieces(10, degree=3, continuity=2))).law
-    start, end = law.boundary_values(3)
-    assert start == pytest.approx((0, 0, 0), abs=1e-10)
-    assert end == pytest.approx((1, 0.5, 0), abs=1e-9)
-
-
 @pytest.mark.long
 def test_power_comes_near_its_limit() -> None:
     basis = Pieces(20, degree=5, continuity=3)
     solution = synthesize(Problem(order=3, minimise="D", B=1.6, basis=basis, monotone=True))
     assert limit("D", 1.6, monotone=True) <= solution.objective <= 1.04 * limit("D", 1.6, monotone=True)
-
-
-def test_symmetric_laws_need_symmetric_breaks() -> None:
-    with pytest.raises(InputError, match="symmetric about 1/2"):
-        Problem(B=1.7, order=3, basis=Pieces((0.0, 0.3, 0.5, 1.0)))
-    assert Problem(B=1.7, order=3, symmetric=False, basis=Pieces((0.0, 0.3, 0.5, 1.0))).basis.name == "pieces"
 
 
 def test_pieces_of_order_1_are_free_to_start_moving() -> None:
