@@ -17,7 +17,6 @@ import pytest
 from optlaws import (
     Axes,
     CamForces,
-    Chebyshev,
     Cycle,
     InputError,
     Problem,
@@ -437,34 +436,6 @@ def test_a_cam_is_saved_in_every_format(name: str) -> None:
     assert len(made["text"]) > 1000
     assert made["name"].startswith("cam.")
     assert tomllib.loads(file_of("problem", "cam", study=cam_view.example())["text"]) == cam_view.example()
-
-
-# --- pictures ---
-
-
-@pytest.mark.parametrize("degree", [9, 41])
-def test_every_peak_lies_on_its_curve(degree: int) -> None:
-    """The jerk of a law of degree 41 swings 839 at places that samples at equal distances never meet."""
-    shown = law_view.shown(synthesize(Problem(B=1.7, order=4, basis=Chebyshev(degree))).law)
-    for panel in shown["panels"]:
-        (curve,) = panel["series"]
-        at = dict(zip(curve["at"], curve["values"], strict=True))
-        for mark in panel["peaks"]:
-            assert at[mark["at"]] == pytest.approx(mark["value"], rel=1e-5)
-        assert len(curve["at"]) < 500
-    assert [len(panel["peaks"]) for panel in shown["panels"]] == [0, 1, 2, 2, 2]
-
-
-def test_every_peak_of_a_cycle_lies_on_its_curve() -> None:
-    view = cycle_view.answer(cycle_of(order=4, degree=25))
-    for panel in view["panels"]:
-        for mark in panel["peaks"]:
-            near = [
-                value
-                for place, value in zip(*(panel["series"][0][part] for part in ("at", "values")), strict=True)
-                if abs(place - mark["at"]) < 1e-3
-            ]
-            assert mark["value"] == pytest.approx(max(near, key=abs), rel=1e-5)
 
 
 # --- cycles ---
