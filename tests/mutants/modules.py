@@ -23,6 +23,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "optlaws.verification.exact.bound": (
         "tests/verification/exact/test_bound_by_hand.py",
         "tests/verification/test_verify.py",
+        "tests/verification/test_kinds.py",
     ),
     "optlaws.numerics.chebyshev": NUMERICS,
     "optlaws.numerics.exact": ("tests/laws/test_polynomial.py", *LAWS),

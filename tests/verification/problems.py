@@ -1,0 +1,140 @@
+"""Problems of every kind whose files are verified."""
+
+from optlaws import (
+    BoundaryConditions,
+    BSplines,
+    Chebyshev,
+    Pieces,
+    Problem,
+    Window,
+    at_least,
+    at_most,
+    between,
+    cam_constant,
+    via,
+)
+
+DEGREE_9 = Chebyshev(9)
+MOVING = BoundaryConditions((0, 0.3), (1, 0.1))
+CONVEX = [
+    Problem(B=1.859, order=4, basis=Chebyshev(9)),
+    Problem(B=1.5, order=5, basis=Chebyshev(21)),
+    Problem(B=2.5, order=4, basis=Chebyshev(9), monotone=True),
+    Problem(B=1.4, order=2, basis=Chebyshev(15)),
+    Problem(B=2.1, order=6, basis=Chebyshev(9)),
+    Problem(B=1.8, order=3, basis=Chebyshev(9), minimise="J"),
+    Problem(B=1.8, order=3, basis=Chebyshev(9), minimise="rms_c"),
+    Problem(B=1.8, order=3, basis=Chebyshev(9), minimise="max(C/4, J/30)"),
+    Problem(B=1.8, order=3, basis=Chebyshev(9), minimise="0.5*C/4 + 0.5*J/12"),
+    Problem(B=1.8, order=4, basis=Chebyshev(11), J=80.0),
+    Problem(B=at_most(1.6), order=4, basis=Chebyshev(9)),
+    Problem(B=1.859, order=4, basis=Chebyshev(9), symmetric=False),
+    Problem(order=2, basis=Chebyshev(7), symmetric=False, boundary=MOVING),
+    Problem(order=3, basis=Chebyshev(9), windows=(via("a", 0.3, at=0.4),), symmetric=False),
+    Problem(order=3, basis=Chebyshev(9), windows=(Window("c", -6.0, 2.0, 0.3, 0.6),)),
+]
+LOCAL = [
+    Problem(B=1.7, order=4, basis=Chebyshev(9), minimise="D"),
+    Problem(B=1.7, order=4, basis=Chebyshev(9), minimise="0.5*C/4 + 0.5*D/2.25"),
+    Problem(B=1.7, order=4, basis=Chebyshev(9), D=8.0),
+]
+PIECES = [
+    Problem(B=1.75, order=4, basis=Pieces(4)),
+    Problem(B=1.75, order=2, basis=Pieces(8, 3, 2)),
+    Problem(B=1.75, order=2, basis=Pieces((0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0), 3, 1)),
+    Problem(B=1.75, order=3, basis=Pieces(8), minimise="rms_c"),
+    Problem(B=1.75, order=3, basis=Pieces(6), minimise="max(C/4, J/40)", monotone=True),
+    Problem(B=1.75, order=3, basis=Pieces(5), symmetric=False),
+    Problem(B=2.3, order=4, basis=Pieces.around((0.0, 0.3, 0.7, 1.0), 0.02)),
+    Problem(B=at_most(1.6), order=4, basis=Pieces(8, 6, 4), bounds={"rms_j": at_most(60)}),
+    Problem(order=3, basis=Pieces(6), symmetric=False, windows=(via("a", 0.3, at=0.4),)),
+    Problem(order=2, basis=Pieces(6), symmetric=False, inflexion=0.4, B=1.7),
+    Problem(order=2, basis=Pieces(4), symmetric=False, boundary=MOVING, minimise="rms_c"),
+    Problem(B=1.75, order=3, basis=Pieces(6), minimise="0.5*C/4 + 0.5*D/2.25"),
+    Problem(B=1.75, order=4, basis=BSplines(6, 3)),
+    Problem(B=1.75, order=4, basis=BSplines(5, 3), symmetric=False, minimise="J"),
+    Problem(B=2.5, order=4, basis=BSplines(6, 4, 2), monotone=True),
+    Problem(B=1.75, order=3, basis=BSplines((0.0, 0.1, 0.4, 0.6, 0.9, 1.0), 3, 1)),
+    Problem(order=3, basis=BSplines(6, 4), windows=(Window("c", -6.0, 2.0, 0.3, 0.6),)),
+]
+KINDS = [
+    *(
+        Problem(order=4, basis=DEGREE_9, **given)
+        for given in (
+            {"B": 1.8, "symmetric": False, "inflexion": 0.4},
+            {"symmetric": False, "inflexion": 0.4, "minimise": "max(C_plus, C_minus/2)"},
+            {"B": 1.8, "bounds": {"rms_c": at_most(3.82)}},
+            {"B": 1.8, "bounds": {"snap": at_most(900)}},
+            {"symmetric": False, "bounds": {"C_minus": at_most(4)}, "minimise": "C_plus"},
+        )
+    ),
+    Problem(B=1.5, order=1, basis=DEGREE_9),
+    Problem(B=1.9, order=6, basis=Chebyshev(11), minimise="snap"),
+    Problem(B=1.9, order=3, basis=DEGREE_9, minimise="rms_j"),
+    Problem(B=1.75, order=2, basis=DEGREE_9, minimise="C_plus"),
+    Problem(B=1.75, order=3, basis=DEGREE_9, minimise="C_plus", symmetric=False),
+    Problem(order=3, basis=DEGREE_9, minimise="C_minus", windows=(Window("a", 0.4, 0.6, 0.45, 0.55),)),
+    Problem(order=3, basis=DEGREE_9, windows=(Window("b", high=1.5, start=0.2, stop=0.8),)),
+    Problem(order=3, basis=DEGREE_9, minimise="J", windows=(Window("c", high=3.5, start=0.2, stop=0.8),)),
+    Problem(order=3, basis=DEGREE_9, minimise="C", J=at_most(70)),
+    Problem(order=4, basis=DEGREE_9, B=between(1.5, 1.8), bounds={"snap": at_most(3000)}),
+    Problem(order=4, basis=DEGREE_9, B=at_least(2.0), minimise="max(C/4, J/32) + 0.2*rms_c"),
+    Problem(order=3, basis=DEGREE_9, B=1.75, minimise="C + J/30", J=between(70, 80)),
+    Problem(order=3, basis=DEGREE_9, B=1.7, symmetric=False, inflexion=0.4),
+    Problem(order=2, basis=DEGREE_9, symmetric=False, boundary=BoundaryConditions((0, 0.5), (1, 0)), monotone=True),
+    Problem(order=2, basis=Chebyshev(5), minimise="D"),
+]
+
+
+def moving(start: tuple[float, ...], end: tuple[float, ...], minimise: str = "C") -> Problem:
+    return Problem(boundary=BoundaryConditions(start, end), minimise=minimise, symmetric=False, basis=Chebyshev(5))
+
+
+ONCE_REFUSED = {
+    "zero": moving((0, 1, 0), (1, 1, 0)),
+    "zero snap": moving((0, -0.467), (1, 0.003), "snap"),
+    "zero maximum": Problem(order=1, minimise="max(0.00038*rms_snap, 9.8e-05*snap)", monotone=True, basis=Chebyshev(8)),
+    "one-sided": moving((0, 2), (1, 0), "max(C_plus, 0.1*C_minus)"),
+    "below zero": moving((0, 2, -1), (1, 0, -1), "C_plus"),
+    "one-sided peaks in a sum": moving((0, 1, 0), (1, 0, 0), "C_plus + 0.2*C_minus + 0.1*rms_c"),
+    "power from below": Problem(order=3, B=1.9, minimise="rms_c", basis=Chebyshev(9), D=at_least(4.0)),
+    "rounded breaks": Problem(
+        order=3, B=1.7, basis=Pieces([0, 0.1, 0.43, 0.5, 0.5699999999999994, 0.9000000000000005, 1], 5, 2)
+    ),
+}
+
+OF_CAMS = {
+    "acceleration": Problem(order=4, minimise=cam_constant("C", frequency=20), basis=Chebyshev(7)),
+    "damped": Problem(order=4, minimise=cam_constant("C", frequency=20, damping=0.1), basis=Chebyshev(7)),
+    "one-sided": Problem(
+        order=4, minimise=cam_constant("C_plus", frequency=15, damping=0.1), symmetric=False, basis=Chebyshev(6)
+    ),
+    "pieces": Problem(order=4, minimise=cam_constant("C_minus", frequency=20, damping=0.1), basis=Pieces(4, 6, 3)),
+    "sum": Problem(order=5, minimise="0.5*C + 0.1*J_cam(frequency=12, damping=0.05)", basis=Chebyshev(7)),
+    "bounded": Problem(order=4, minimise="C", bounds={"C_cam(frequency=10)": at_most(7.0)}, basis=Chebyshev(9)),
+    "velocity": Problem(order=4, minimise="C", bounds={"B_cam(frequency=9)": at_most(1.7)}, basis=Chebyshev(9)),
+    "power": Problem(order=4, minimise=cam_constant("D", frequency=20, damping=0.1), basis=Chebyshev(7)),
+    "power, not symmetric": Problem(
+        order=4, minimise=cam_constant("D", frequency=20, damping=0.1), symmetric=False, basis=Chebyshev(4)
+    ),
+    "both powers": Problem(order=4, minimise="D + D_cam(frequency=20)", basis=Chebyshev(7)),
+}
+
+RESIDUALS = {
+    "one frequency": Problem(order=4, minimise="residual(frequency=18) + 0.1*C", C=at_most(7), basis=Chebyshev(7)),
+    "nothing left": Problem(order=4, minimise="residual(frequency=18)", C=at_most(7), basis=Chebyshev(7)),
+    "interval": Problem(
+        order=4, minimise="residual(frequency=(9, 12), damping=0.03)", B=1.8, C=at_most(7), basis=Chebyshev(7)
+    ),
+    "bounded": Problem(
+        order=4, minimise="C", bounds={"residual(frequency=(18, 22))": at_most(0.5)}, basis=Chebyshev(9)
+    ),
+    "with a design": Problem(
+        order=4,
+        minimise="C",
+        symmetric=False,
+        bounds={"residual(frequency=(18, 22), damping=0.02, design=20)": at_most(0.5)},
+        basis=Pieces(4, 6, 3),
+    ),
+    "symmetric pieces": Problem(order=4, minimise="0.2*C + residual(frequency=(12, 14))", basis=Pieces(4, 6, 3)),
+}
