@@ -24,7 +24,7 @@ from optlaws import (
 )
 from optlaws.verification import Verification, exact_bound, verify
 from tests.sampling import examples
-from tests.verification.problems import CONVEX, KINDS, PIECES
+from tests.verification.problems import CONVEX, KINDS, OF_CAMS, PIECES, RESIDUALS
 from tests.verification.tampering import Data, Path, changed, data_of, text_of, value_at
 
 INFEASIBLE = [
@@ -96,7 +96,7 @@ TAMPER: dict[str, tuple[list[tuple[Path, object]], str]] = {
 }
 
 
-#: the same of a law of pieces, of a bound and of an inflexion
+#: the same of laws of pieces, cams, residuals, bounds and inflexions
 OTHERS: dict[Problem, dict[str, tuple[list[tuple[Path, object]], str]]] = {
     PIECES[0]: {
         "a break": ([(("law", "breaks", 1), 1.0 + 4e-9)], "breaks"),
@@ -106,6 +106,12 @@ OTHERS: dict[Problem, dict[str, tuple[list[tuple[Path, object]], str]]] = {
         "smoother": (asked("continuity", 4), "continuity of derivative 4"),
         "a lower degree": (asked("degree", 4), "terms above the degree"),
         "fewer pieces": (asked("breaks", [0.0, 0.5, 1.0]), "4 pieces instead of 2"),
+    },
+    OF_CAMS["damped"]: {
+        "a stiffer follower": (asked("minimise", "C_cam(frequency=20.001, damping=0.1)"), "the objective")
+    },
+    RESIDUALS["interval"]: {
+        "more frequencies": (asked("minimise", "residual(frequency=(9, 12.001), damping=0.03)"), "the objective")
     },
     KINDS[2]: {"a tighter bound": (asked("bounds", {"rms_c": [0.0, 3.81]}), "rms_c at most")},
     KINDS[0]: {
@@ -130,7 +136,7 @@ def test_a_tampered_file_fails(problem: Problem, name: str, change: tuple[list[t
 
 
 @examples(120)
-@given(st.sampled_from([*CONVEX, *PIECES]), st.data())
+@given(st.sampled_from([*CONVEX, *PIECES, OF_CAMS["damped"], RESIDUALS["interval"]]), st.data())
 def test_whatever_a_certificate_says_no_bound_exceeds_the_optimum(problem: Problem, data: st.DataObject) -> None:
     solution = data_of(problem)
     certificate = Certificate.from_dict(solution["certificate"])

@@ -20,7 +20,7 @@ from optlaws import (
     smoothstep,
     synthesize,
 )
-from optlaws.verification import exact_bound, verify
+from optlaws.verification import exact_bound
 from tests.internals.verification import ExactLaw, ExactRows, enclosed
 
 INTERVAL = "residual(frequency=(9, 12), damping=0.03)"
@@ -95,16 +95,6 @@ def test_rows_of_all_bases_give_the_amplitude_of_their_base_law() -> None:
         if not symmetric:
             assert first.functions[-1].overlaps(of_pieces)
         assert float(first.functions[-1].rad()) < 1e-10
-
-
-def test_tampered_claims_are_refused() -> None:
-    data = robust().to_dict()
-    assert verify(data).proven
-    for key, change in (("objective", 1e-8), ("objective", -1e-8), ("lower_bound", 1e-7)):
-        assert not verify({**data, key: data[key] + change}).proven, key
-    other = {**data["problem"], "minimise": "residual(frequency=(9, 12.001), damping=0.03)"}
-    assert not verify({**data, "problem": other}).proven
-    assert not verify({**data, "problem": other, "certificate": {**data["certificate"], "problem": other}}).proven
 
 
 @pytest.mark.parametrize("stretch", [0.5, 3.0])
