@@ -58,7 +58,7 @@ def smooth(formula: Formula, names: Collection[str]) -> bool:
     >>> smooth(read("b*c + abs(k)"), "bc"), smooth(read("abs(b)"), "bc")
     (True, False)
     """
-    kinked = (part for part in formula.walk() if not smooth_itself(part))
+    kinked = (part for part in formula.different if not smooth_itself(part))
     return not any(part.names() & set(names) for part in kinked)
 
 
@@ -79,7 +79,7 @@ def switches(formula: Formula, names: Collection[str]) -> list[Formula]:
     [a - 0.25, a - 0.75]
     """
     formulas: list[Formula] = []
-    for part in reversed(list(formula.walk())):
+    for part in _inner_first(formula):
         if (smooth_itself(part) and not isinstance(part, Table)) or not part.names() & set(names):
             continue
         if isinstance(part, Table):
@@ -91,6 +91,20 @@ def switches(formula: Formula, names: Collection[str]) -> list[Formula]:
     return [fromkey for fromkey in dict.fromkeys(formulas) if fromkey.names() & set(names)]
 
 
+def _inner_first(formula: Formula) -> list[Formula]:
+    """All parts of a formula before the formulas that they are parts of, the last ones first."""
+    seen: dict[Formula, None] = {}
+
+    def see(part: Formula) -> None:
+        for inner in reversed(part.parts):
+            if inner not in seen:
+                see(inner)
+        seen[part] = None
+
+    see(formula)
+    return list(seen)
+
+
 def corners(formula: Formula, names: Collection[str]) -> list[Formula]:
     """Formulas that are 0 where tables of straight lines bend.
 
@@ -98,7 +112,7 @@ def corners(formula: Formula, names: Collection[str]) -> list[Formula]:
     >>> corners(read("table(x, 0:0, 1:1, 3:0) + spline(x, 0:1, 1:2, 2:3, 3:3)"), "x")
     [x - 1]
     """
-    bent = (part for part in formula.walk() if isinstance(part, Table) and not smooth_itself(part))
+    bent = (part for part in formula.different if isinstance(part, Table) and not smooth_itself(part))
     return [switch for table in dict.fromkeys(bent) for switch in switches(table, names)]
 
 
@@ -227,7 +241,7 @@ class _Branches:
 
     def _has_corners_alone(self, formula: Formula) -> bool:
         """Whether all kinks are those of tables of straight lines."""
-        kinked = (part for part in formula.walk() if not isinstance(part, Table) and not smooth_itself(part))
+        kinked = (part for part in formula.different if not isinstance(part, Table) and not smooth_itself(part))
         return not any(part.names() & self.names for part in kinked)
 
     def _maximum(self, formula: Formula, *, greatest: bool) -> list[Formula] | None:

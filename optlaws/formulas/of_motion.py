@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import partial, reduce
+from functools import lru_cache, partial, reduce
 from itertools import combinations
 from math import prod
 from typing import Any
@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.errors import InputError
-from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.arithmetic import NUMPY, Together, evaluate, step_value
 from optlaws.formulas.branches import branches
 from optlaws.formulas.convexity import Affine, Curvature, Judge, Verdict, affine, degree
 from optlaws.formulas.reading import read, refused
@@ -80,7 +80,7 @@ class MotionFormula:
     @kept_property
     def verdict(self) -> Verdict:
         """The verdict on its convexity at every k of its part, with the rule that shows it."""
-        return Judge(frozenset(ORDERS), self.start, self.stop).verdict(self.formula)
+        return _verdict(self.formula, self.start, self.stop)
 
     @property
     def curvature(self) -> Curvature:
@@ -140,7 +140,7 @@ class MotionFormula:
             "j": 60.0 - 360.0 * k * (1 - k),
         }
         with np.errstate(all="ignore"):
-            sizes = _magnitude(self.formula, {**_REACHED, "k": k}, {**moved, "k": k})
+            sizes = _magnitudes(self.formula, {**_REACHED, "k": k}, {**moved, "k": k})
         return power_of_two(float(np.max(sizes, where=np.isfinite(sizes), initial=0.0)))
 
     def scaled(self, factor: float) -> MotionFormula:
@@ -151,7 +151,7 @@ class MotionFormula:
     def kinks(self) -> tuple[float, ...]:
         """The k strictly between 0 and 1 at which a factor is not smooth, ascending."""
         places: set[float] = set()
-        for part in self.formula.walk():
+        for part in self.formula.different:
             if isinstance(part, Table) and not part.names() & ORDERS.keys():
                 places.update(self._knots(part))
             if isinstance(part, Call) and part.function in {"abs", "max", "min"} and not part.names() & ORDERS.keys():
@@ -180,19 +180,35 @@ class MotionFormula:
         return places
 
 
+@lru_cache(maxsize=64)
+def _verdict(formula: Formula, start: float, stop: float) -> Verdict:
+    return Judge(frozenset(ORDERS), start, stop).verdict(formula)
+
+
 #: what a, b, c and j reach in a smooth law from rest to rest, and at how many k a formula is looked at
 _REACHED = {"a": 1.0, "b": 2.0, "c": 6.0, "j": 60.0}
 _LOOKS = 33
 
 
-def _magnitude(formula: Formula, names: Mapping[str, Any], values: Mapping[str, Any]) -> Array:
+def _magnitudes(formula: Formula, names: Mapping[str, Any], at: Mapping[str, Any]) -> Array:
     """The size of a formula's parts at some places, without regard to signs; in another unit it is that times as much.
 
-    `names` are what the derivatives reach anywhere, `values` what they are there.
+    `names` are what the derivatives reach anywhere, `at` what they are there.
     """
-    parts = [_magnitude(part, names, values) for part in formula.parts]
-    if isinstance(formula, Name | Number):
-        return np.asarray(np.abs(evaluate(formula, names, NUMPY)))
+    sizes, values = list[Array](), list[Any]()
+    for part, places, _ in formula.steps:
+        values.append(step_value(part, [values[place] for place in places], at, NUMPY))
+        if isinstance(part, Name | Number):
+            sizes.append(np.asarray(np.abs(evaluate(part, names, NUMPY))))
+        else:
+            sizes.append(
+                _magnitude(part, [sizes[place] for place in places], [values[place] for place in [*places, -1]])
+            )
+    return sizes[-1]
+
+
+def _magnitude(formula: Formula, parts: list[Array], values: list[Any]) -> Array:
+    """The size of a formula from those of its parts, and from their values, of which the last is its own."""
     if isinstance(formula, Negative):
         return parts[0]
     if isinstance(formula, Sum):
@@ -202,10 +218,10 @@ def _magnitude(formula: Formula, names: Mapping[str, Any], values: Mapping[str, 
     if isinstance(formula, Reciprocal):
         return 1.0 / parts[0]
     if isinstance(formula, Exponentiation):
-        return np.asarray(parts[0] ** evaluate(formula.exponent, values, NUMPY))
+        return np.asarray(parts[0] ** values[1])
     if isinstance(formula, Call) and formula.function in {"abs", "norm"}:
         return np.asarray(reduce(np.maximum, parts))
-    there = np.asarray(np.abs(evaluate(formula, values, NUMPY)))
+    there = np.asarray(np.abs(values[-1]))
     # at rest a formula may be 0 that is not elsewhere
     return there if np.any(there) or not parts else np.asarray(reduce(np.maximum, parts))
 
@@ -215,6 +231,7 @@ def _along(motion: MotionFormula, x: Array) -> Array:
     return np.broadcast_to(motion.values({"k": (1.0 + x) / 2.0}), np.shape(x))
 
 
+@lru_cache(maxsize=16)
 def of_text(text: str, start: float = 0.0, stop: float = 1.0) -> MotionFormula:
     """The formula of a text, over a part of the interval.
 
@@ -229,27 +246,31 @@ def of_text(text: str, start: float = 0.0, stop: float = 1.0) -> MotionFormula:
 
 def checked(motion: MotionFormula, text: str) -> MotionFormula:
     """The formula with d written as b c, if it has a value for every k."""
-    for part in motion.formula.different():
+    for part in motion.formula.different:
         if (
             isinstance(part, Product)
             and sum(bool(factor.names() & {*ORDERS, "d"}) for factor in part.factors) > _FACTORS
         ):
             raise refused(f"a product may have {_FACTORS} factors that depend on the law", text, part)
     k = np.linspace(motion.start, motion.stop, 1025)
-    still = [part for part in motion.formula.different() if not part.names() & {*ORDERS, "d"}]
+    still = tuple(part for part in motion.formula.different if not part.names() & {*ORDERS, "d"})
+    with np.errstate(all="ignore"):
+        values = dict(zip(still, map(np.asarray, Together(still).values({"k": k}, NUMPY)), strict=True))
     for part in still:
         beneath = divisor(part)
-        below = None if beneath is None else MotionFormula(beneath).values({"k": k})
-        if below is None or not ((below == 0.0).any() or np.min(below) < 0.0 < np.max(below)):
+        if beneath is None:
+            continue
+        below = values[beneath] if beneath in values else MotionFormula(beneath).values({"k": k})
+        if not ((below == 0.0).any() or np.min(below) < 0.0 < np.max(below)):
             continue
         where = f" within k = {motion.start:g}..{motion.stop:g}" if "k" in part.names() else ""
         if isinstance(part, Reciprocal):
             raise refused(f"{part.of} is 0{where}, and it is divided by", text, part)
         raise refused(f"{part} has no finite value{where}", text, part)
     for part in still:
-        values = np.broadcast_to(MotionFormula(part).values({"k": k}), k.shape)
-        if not np.isfinite(values).all():
-            raise refused(f"{part} has no finite value at k = {k[~np.isfinite(values)][0]:.4g}", text, part)
+        finite = np.broadcast_to(np.isfinite(values[part]), k.shape)
+        if not finite.all():
+            raise refused(f"{part} has no finite value at k = {k[~finite][0]:.4g}", text, part)
     return replace(motion, formula=substituted(motion.formula, {"d": _POWER}))
 
 

@@ -206,13 +206,18 @@ def parse(scanner: Scanner, names: Collection[str] | None = None) -> Formula:
 class _Parser:
     def __init__(self, scanner: Scanner, names: Collection[str] | None) -> None:
         self.scanner, self.names = scanner, names
+        self._known: dict[Formula, Formula] = {}
+
+    def _once(self, formula: Formula) -> Formula:
+        """The formula that stands first in the text of those that are equal: what is computed of it is kept with it."""
+        return self._known.setdefault(formula, formula)
 
     def sum(self, depth: int) -> Formula:
         place = self._deeper(depth)
         terms = [self._term(depth)]
         while self.scanner.token.text in {"+", "-"}:
             terms.append(self._term(depth))
-        return total(terms, place)
+        return self._once(total(terms, place))
 
     def _term(self, depth: int) -> Formula:
         """A product with the sign before it."""
@@ -220,7 +225,7 @@ class _Parser:
         if self.scanner.token.text in {"+", "-"}:
             minus = self.scanner.take().text == "-"
         product = self._product(depth)
-        return Negative(product, place=place) if minus else product
+        return self._once(Negative(product, place=place)) if minus else product
 
     def _product(self, depth: int) -> Formula:
         place = self.scanner.token.place
@@ -228,19 +233,19 @@ class _Parser:
         while self.scanner.token.text in {"*", "/"}:
             sign = self.scanner.take()
             factor = self._signed(depth)
-            factors.append(Reciprocal(factor, place=sign.place) if sign.text == "/" else factor)
-        return product(factors, place)
+            factors.append(self._once(Reciprocal(factor, place=sign.place)) if sign.text == "/" else factor)
+        return self._once(product(factors, place))
 
     def _signed(self, depth: int) -> Formula:
         place = self._deeper(depth)
         if self.scanner.token.text in {"+", "-"}:
             minus = self.scanner.take().text == "-"
             factor = self._signed(depth + 1)
-            return Negative(factor, place=place) if minus else factor
+            return self._once(Negative(factor, place=place)) if minus else factor
         base = self._atom(depth)
         if not self._raises():
             return base
-        return Exponentiation(base, self._signed(depth + 1), place=place)
+        return self._once(Exponentiation(base, self._signed(depth + 1), place=place))
 
     def _raises(self) -> bool:
         """Take the sign of a power, ^ or **, if it comes next."""
@@ -255,7 +260,7 @@ class _Parser:
     def _atom(self, depth: int) -> Formula:
         token = self.scanner.token
         if token.kind == "number":
-            return Number(self._magnitude(), place=token.place)
+            return self._once(Number(self._magnitude(), place=token.place))
         if token.text == "(":
             self.scanner.take()
             inner = self.sum(depth + 1)
@@ -270,7 +275,7 @@ class _Parser:
                 self.scanner.refuse(f"{token.text} needs what it is of, in brackets")
             self.scanner.refuse(unknown_key(token.text, self.names, "name"))
         self.scanner.take()
-        return Name(token.text, place=token.place)
+        return self._once(Name(token.text, place=token.place))
 
     def _call(self, depth: int) -> Formula:
         token = self.scanner.token
@@ -280,7 +285,7 @@ class _Parser:
         self.scanner.take()
         arguments = [self.sum(depth + 1)]
         if token.text in TABLES:
-            return self._table(token.text, arguments[0], token.place)
+            return self._once(self._table(token.text, arguments[0], token.place))
         while self.scanner.token.text == ",":
             self.scanner.take()
             arguments.append(self.sum(depth + 1))
@@ -289,7 +294,7 @@ class _Parser:
         if not fewest <= len(arguments) <= most:
             parts = "one part" if most == 1 else f"{fewest} to {most} parts"
             self.scanner.refuse(f"{token.text} takes {parts}, got {len(arguments)}", token.place)
-        return Call(token.text, tuple(arguments), place=token.place)
+        return self._once(Call(token.text, tuple(arguments), place=token.place))
 
     def _table(self, kind: str, of: Formula, place: int) -> Formula:
         pairs: list[tuple[float, float]] = []

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from typing import Any, Literal, NamedTuple, TypeAlias
 
@@ -65,18 +65,13 @@ class Formula:
         """The formulas that are its direct parts."""
         return ()
 
-    def walk(self) -> Iterator[Formula]:
-        """The formula itself and all parts within it."""
-        yield self
-        for part in self.parts:
-            yield from part.walk()
-
-    def different(self) -> list[Formula]:
-        """The formula itself and all parts within it, without duplicates.
+    @kept_property
+    def different(self) -> tuple[Formula, ...]:
+        """The formula itself and all parts within it, without duplicates, each where it stands first.
 
         >>> from optlaws.formulas.reading import read
-        >>> read("2*b + sin(2*b)").different()
-        [2*b + sin(2*b), 2*b, 2, b, sin(2*b)]
+        >>> read("2*b + sin(2*b)").different
+        (2*b + sin(2*b), 2*b, 2, b, sin(2*b))
         """
         seen: dict[Formula, None] = {}
         waiting: list[Formula] = [self]
@@ -85,7 +80,7 @@ class Formula:
             if part not in seen:
                 seen[part] = None
                 waiting.extend(part.parts[::-1])
-        return list(seen)
+        return tuple(seen)
 
     def names(self) -> frozenset[str]:
         """The names that occur anywhere in it."""
@@ -316,7 +311,7 @@ def table_places(formula: Formula, name: str) -> list[float]:
     >>> table_places(read("table(x, 0:1, 2:5) + 3*table(x, 1:0, 2:1)", ("x",)), "x")
     [0.0, 1.0, 2.0]
     """
-    tables = (part for part in formula.walk() if isinstance(part, Table) and part.of == Name(name))
+    tables = (part for part in formula.different if isinstance(part, Table) and part.of == Name(name))
     return sorted({place for table in tables for place in table.places})
 
 

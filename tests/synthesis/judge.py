@@ -223,7 +223,7 @@ class Judged:
     def _breaks(self, motion: MotionFormula) -> list[float]:
         """Of the law, and of the tables, by their places."""
         own = [piece.domain[0] for piece in self.derivatives[2].pieces]
-        return own + [x for part in motion.formula.walk() if isinstance(part, Table) for x in part.places]
+        return own + [x for part in motion.formula.different if isinstance(part, Table) for x in part.places]
 
     @staticmethod
     def _highest(signal: Callable[[Any], Any], sign: float, edges: list[float]) -> float:

@@ -398,7 +398,7 @@ class Clearance(Interlock, kind="clearance"):
     def formula(self) -> Formula:
         """The bound as a formula of x."""
         formula = read(self.given, names="x")
-        if any(isinstance(part, Table) for part in formula.walk()):
+        if any(isinstance(part, Table) for part in formula.different):
             raise InputError("clearance: give a table as pairs, least=[('0 deg', '20 mm'), ...], not in a formula")
         return formula
 

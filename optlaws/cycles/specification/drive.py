@@ -173,7 +173,7 @@ def read_process(given: Mapping[str, Any], mechanism: Mechanism, period: float) 
     force = formula_of(
         process.given, (places, kind), f"load: {kind}", variable=variable, interpolation=process.interpolation
     )
-    for part in force.walk() if unit else ():
+    for part in force.different if unit else ():
         if isinstance(part, Table) and part.of == Name(variable):
             first, last = part.places[0], part.places[-1]
             if first > CLOSURE * end or last < end * (1.0 - CLOSURE):

@@ -175,7 +175,7 @@ class Mechanism(Declared, title="a mechanism"):
         numbers = {name: float(quantity(getattr(self, name), of, name, bare=True)) for name, of in friction.items()}
         over = _range({"inertia": inertia, "load": load}, ends, kind)
         vars(self).update(inertia_formula=inertia, load_formula=load, over=over, axis=kind, **numbers)
-        if any(isinstance(part, Table) and not smooth_itself(part) for part in inertia.walk()):
+        if any(isinstance(part, Table) and not smooth_itself(part) for part in inertia.different):
             raise InputError(
                 "the inertia has corners, where the torque would jump: a table is joined by a smooth curve, and in a "
                 "formula monotone(x, ...) is one"
@@ -512,7 +512,7 @@ def _range(formulas: Mapping[str, Formula], ends: tuple[float, float] | None, ax
     tables = [
         (what, part)
         for what, formula in formulas.items()
-        for part in formula.walk()
+        for part in formula.different
         if isinstance(part, Table) and part.of == Name("x")
     ]
     if ends is None:

@@ -161,7 +161,7 @@ def formula_of(
         return Table(Name(variable), places, values, JOINED[interpolation])
     if isinstance(given, str) and _WITH_UNIT.match(given) is None:
         formula = read(given, (variable,))
-        for part in formula.walk():
+        for part in formula.different:
             if isinstance(part, Table) and part.kind == "spline":
                 _check_shape(part, name)
         return formula

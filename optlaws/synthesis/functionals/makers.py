@@ -316,7 +316,7 @@ def _checked(constant: OfFormula, formula: Any) -> OfFormula:
     why = refusal(constant)
     if why is not None:
         text = formula if isinstance(formula, str) else str(constant.motion.formula)
-        kinked = next(part for part in constant.motion.formula.walk() if not smooth_itself(part))
+        kinked = next(part for part in constant.motion.formula.different if not smooth_itself(part))
         raise FormulaError(why, text, kinked.place)
     return constant
 

@@ -27,13 +27,13 @@ def check_ends(motion: MotionFormula, conditions: BoundaryConditions) -> None:
     """Refuse a formula that has no value at the end conditions: at rest 1/b divides by 0."""
     for k, end in ((0.0, conditions.start), (1.0, conditions.end)):
         known = {name: end[nu] for name, nu in ORDERS.items() if nu < len(end)}
-        every = motion.formula.different() if motion.start <= k <= motion.stop else ()
+        every = motion.formula.different if motion.start <= k <= motion.stop else ()
         parts = [part for part in every if part.names() <= {*known, "k"} and part.names() & ORDERS.keys()]
         wrong = [part for part in parts if not np.isfinite(MotionFormula(part).values({**known, "k": k}))]
         if wrong:
             values = " and ".join(f"{name} = {known[name]:g}" for name in sorted(wrong[0].names() & ORDERS.keys()))
             text = str(motion.formula)
-            places = (same.place for same in read(text).walk() if same == wrong[-1])
+            places = (same.place for same in read(text).different if same == wrong[-1])
             raise FormulaError(
                 f"{motion.formula} has no finite value at k = {k:g}, where {values} in every law: ask for a part "
                 "of the interval, such as start=0.05, stop=0.95",
@@ -49,7 +49,7 @@ def check_passed(motion: MotionFormula, conditions: BoundaryConditions, *, smoot
     """
     at_rest = conditions.start[:2] == (0, 0) and conditions.end[:2] == (1, 0)
     passed = {"a": (0.0, 1.0), "b": (0.0, 1.0)} | ({"c": (-1.0, 1.0)} if smooth else {})
-    for part in motion.formula.different() if at_rest and (motion.start, motion.stop) == (0.0, 1.0) else ():
+    for part in motion.formula.different if at_rest and (motion.start, motion.stop) == (0.0, 1.0) else ():
         (name,) = part.names() if len(part.names()) == 1 else ("",)
         if name not in passed:
             continue
@@ -64,7 +64,7 @@ def check_passed(motion: MotionFormula, conditions: BoundaryConditions, *, smoot
 
 def pitfalls(motion: MotionFormula) -> Iterator[str]:
     """Parts of a formula that some motions bring where they have no value or no slope, in words."""
-    for part in motion.formula.different():
+    for part in motion.formula.different:
         if not part.names() & ORDERS.keys():
             continue
         if isinstance(part, Reciprocal):

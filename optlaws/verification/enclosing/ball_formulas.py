@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import reduce
 from itertools import pairwise
-from operator import methodcaller
+from operator import methodcaller, mul
 from typing import Any
 
 from flint import arb, arb_poly, arb_series, ctx, fmpq, fmpq_poly
 
-from optlaws.formulas.arithmetic import Arithmetic, evaluate, horner, pieces
-from optlaws.formulas.tree import Formula, Table
-from optlaws.verification.enclosing.balls import ball, rational
+from optlaws.formulas.arithmetic import Arithmetic, evaluate, horner, pieces, step_value
+from optlaws.formulas.tree import Call, Formula, Table
+from optlaws.verification.enclosing.balls import ball, rational, series_length
 
 
 def _tanh(x: Any) -> Any:
@@ -26,7 +26,7 @@ def _power(base: Any, exponent: Any) -> Any:
     plain = _plain(exponent)
     if plain.is_integer():
         whole = int(str(plain.unique_fmpz()))
-        power = reduce(lambda product, _: product * base, range(abs(whole)), base * 0 + 1)
+        power = reduce(mul, [base] * abs(whole)) if whole else base * 0 + 1
         return power if whole >= 0 else 1 / power
     if plain > 0 and _may_vanish(_plain(base)):
         most = _plain(base).upper()
@@ -160,6 +160,72 @@ def series_of(formula: Formula, names: Mapping[str, arb_series]) -> arb_series:
     except ValueError:
         return arb_series([arb.nan()] * ctx.cap)
     return series
+
+
+#: the first terms of a series that are enclosed by the slopes of their own
+_ENCLOSED = 2
+#: of half a cell: what is narrower is a place in it
+_PLACE = 2.0**-8
+
+
+def series_on_cell(
+    formula: Formula, names: Callable[[arb_series], Mapping[str, arb_series]], k: arb_series
+) -> arb_series:
+    """The Taylor series of a formula around all k of a ball; `names` are what its names stand for there.
+
+    What a part is on a cell is at most its slope there away from what it is in the middle, and so is each of its first
+    terms; this is narrower by far than what comes of balls in which the same k stands many times.
+
+    >>> from optlaws.formulas.reading import read
+    >>> k = arb_series([arb(0.5, 2.0**-10), arb(2.0**-10)])
+    >>> wide, narrow = (
+    ...     series_of(read("(k - k^2)^4"), {"k": k}),
+    ...     series_on_cell(read("(k - k^2)^4"), lambda k: {"k": k}, k),
+    ... )
+    >>> wide[0].contains(narrow[0]), float(narrow[0].rad()) < 0.01 * float(wide[0].rad())
+    (True, True)
+    """
+    middle, half = k[0].mid(), k[1]
+    if not half > 0 or k[0].rad() < _PLACE * half:
+        return series_of(formula, names(k))
+    reach = (abs(k[0] - middle) / half).upper()
+    around = names(k)
+    with series_length(_ENCLOSED + 1):
+        about = names(arb_series([middle, half]))
+    abouts, arounds = list[Any](), list[Any]()
+    try:
+        for part, places, done in formula.steps:
+            near, wide = [abouts[place] for place in places], [arounds[place] for place in places]
+            with series_length(_ENCLOSED + 1):
+                there = step_value(part, near, about, BALLS)
+            if isinstance(part, Call) and part.function in {"max", "min"} and len(places) == 2:
+                # what two have in common leaves their difference, which tells the greater one
+                with series_length(_ENCLOSED + 1):
+                    apart = near[0] - near[1]
+                sign = 1 if part.function == "max" else -1
+                value = wide[1] + sign * _max(sign * _narrowed(wide[0] - wide[1], apart, reach), arb(0))
+            else:
+                value = step_value(part, wide, around, BALLS)
+            abouts.append(there)
+            arounds.append(_narrowed(value, there, reach))
+            for place in done:
+                abouts[place] = arounds[place] = None
+    except ValueError:
+        return arb_series([arb.nan()] * ctx.cap)
+    series: arb_series = arounds[-1] + arb_series([arb(0)])
+    return series
+
+
+def _narrowed(around: Any, about: Any, reach: arb) -> Any:
+    """A series around a cell whose first terms are also within their slopes of those in its middle."""
+    if not isinstance(around, arb_series):
+        return around
+    terms = [around[i] for i in range(around.length())]
+    for i in reversed(range(min(_ENCLOSED, len(terms) - 1))):
+        if about[i].is_finite() and terms[i].is_finite() and terms[i + 1].is_finite():
+            away = (reach * (i + 1) * abs(terms[i + 1])).upper()
+            terms[i] = terms[i].intersection(about[i] + arb(0, away))
+    return arb_series(terms)
 
 
 def composed(polynomial: fmpq_poly, x: arb_series) -> arb_series:

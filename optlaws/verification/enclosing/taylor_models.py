@@ -21,10 +21,14 @@ _NARROWER = 0.9
 _BITS = 192
 #: terms of Taylor polynomials; how short a cell is cut no further, and after how many none is
 _TERMS, _LEAST, _MOST = 24, Fraction(1, 2**70), 1 << 12
+#: parts between whose ends values are seen that extremes are not within
+_LOOKS = 32
 #: after so many an integral is not enclosed: kinks that these do not find are many times closer than they can be told
 _MOST_OF_INTEGRAL = 1 << 10
 #: terms that tell whether a function has a kink in a cell: it has no more of them then
 _KINKED = 3
+#: and that are enough on a cell beside one
+_FEW = 8
 
 #: a function by its Taylor series; coefficients beyond what it is smooth to are not finite
 Smooth = Callable[[arb_series], arb_series]
@@ -103,18 +107,23 @@ def extremes(function: Smooth, start: Fraction, stop: Fraction) -> Extremes:
     >>> greatest.contains(1), float(greatest.rad()) < 1e-12
     (True, True)
     """
-    first, last = (function(arb_series([ball(k)]))[0] for k in (start, stop))
-    size = 1 + abs(first).max(abs(last)).upper()
+    seen = [function(arb_series([ball(start + (stop - start) * i / _LOOKS)]))[0] for i in range(_LOOKS + 1)]
+    size = 1 + abs(seen[0]).max(abs(seen[-1])).upper()
     if not size.is_finite():
         return arb.nan(), arb.nan()
+    least, greatest = least_and_greatest([value for value in seen if value.is_finite()])
+    below, above = least.upper(), greatest.lower()  # what is taken at some of these places, or more
     most = size * max(TAYLOR_REST, 2.0 ** (8 - ctx.prec))
 
     def enough(rests: Sequence[arb], _: Fraction) -> bool:
         return bool(rests[0] <= most)
 
-    several = cells(lambda s: [function(s)], arb_series, (start, stop), _LEAST, by_rests=enough)
+    def between_these(around: Sequence[arb_series]) -> bool:
+        return bool(around[0][0] >= below and around[0][0] <= above)
+
+    several = cells(lambda s: [function(s)], arb_series, (start, stop), _LEAST, by_rests=enough, left_out=between_these)
     parts = [(arb_poly(centre), rest) for _, [(centre, rest)] in several]
-    return -greatest_magnitude(parts, (-1.0,)), greatest_magnitude(parts, (1.0,))
+    return below.min(-greatest_magnitude(parts, (-1.0,))), above.max(greatest_magnitude(parts, (1.0,)))
 
 
 def cells(
@@ -126,7 +135,8 @@ def cells(
     *,
     terms: int = _TERMS,
     most: float = _MOST,
-    by_rests: Callable[[Sequence[arb], Fraction], bool] = lambda *_: True,
+    by_rests: Callable[[Sequence[arb], Fraction], bool] | None = None,
+    left_out: Callable[[Sequence[Any]], bool] | None = None,
 ) -> Iterator[tuple[Ends, list[Taylor]]]:
     """Many cells with Taylor polynomials of functions there, and their greatest errors.
 
@@ -150,6 +160,8 @@ def cells(
     by_rests
         Whether a cell need not be cut, from how far the functions are off their polynomials alone, and its length:
         where it must be, no polynomial is computed.
+    left_out
+        Whether a cell does not matter, from a few terms of the functions around all of it.
     """
     # the longest first: where there are too many, all kinks are as near to being found
     left, count = deque([(*ends, False)]), 0
@@ -157,19 +169,23 @@ def cells(
         low, high, kinked = left.popleft()
         middle, half = (low + high) / 2, ball((high - low) / 2)
         where, count = [ball(low).union(ball(high)), half], count + 1
-        # a part of a cell with a kink has mostly one too, for which a few terms are enough
-        for length in (_KINKED, terms + 1) if kinked else (terms + 1,):
+        # a part of a cell with a kink has mostly one too, or is so short that a few terms are enough
+        lengths = {*((_KINKED, _FEW) if kinked or left_out is not None else ()), terms + 1}
+        for length in sorted(lengths):
             with series_length(length):
                 around = functions(variable(where))
+            beside, rests = left_out is not None and left_out(around), [_rest(each, length - 1) for each in around]
+            near = by_rests is not None and by_rests([rest for _, rest in rests], high - low)
             kinked = not any(each[_KINKED - 1].is_finite() for each in around)
-            if kinked:
+            if beside or near or kinked:
                 break
-        with series_length(length):
-            rests, last = [_rest(each, length - 1) for each in around], high - low < shortest or count > most
-            parts: list[Taylor] | None = None
-            if last or by_rests([rest for _, rest in rests], high - low):
+        if beside:
+            continue
+        parts, last = None, high - low < shortest or count > most
+        if last or near or by_rests is None:
+            with series_length(length):
                 about = functions(variable([ball(middle), half]))
-                parts = [_taylor(*each) for each in zip(about, around, rests, strict=True)]
+            parts = [_taylor(*each) for each in zip(about, around, rests, strict=True)]
         if parts is not None and (last or enough(parts, high - low)):
             yield (low, high), parts
         else:

@@ -358,7 +358,7 @@ def _plane(branch: Branch, way: Way, ranges: dict[str, tuple[arb, arb]], k: Frac
 
 def _over(formula: Formula, ranges: dict[str, tuple[arb, arb]], k: Fraction, depth: int = 0) -> arb:
     """A ball that holds a formula in the ranges: by parts of those that divide, for balls of quotients are wide."""
-    divisors = (part for part in formula.walk() if isinstance(part, Reciprocal))
+    divisors = (part for part in formula.different if isinstance(part, Reciprocal))
     dividing = {name for divisor in divisors for name in divisor.names()} & ranges.keys()
     if depth == (_DEEPEST if dividing else 0):
         within = {name: low.union(high) for name, (low, high) in ranges.items()} | {"k": ball(k)}

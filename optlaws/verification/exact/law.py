@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from itertools import pairwise
 from math import isfinite
+from typing import Any, TypeVar
 
 from flint import arb, ctx, fmpq
 
@@ -115,6 +116,9 @@ def of_derivatives(constant: Functional) -> DerivativePeak:
     return DerivativePeak(constant.name, low, exact)
 
 
+Enclosure = TypeVar("Enclosure")
+
+
 class ExactLaw:
     """The very function that a law's floats describe, piece by piece.
 
@@ -140,6 +144,7 @@ class ExactLaw:
             self.pieces = [_piece(segment, low, high) for segment, (low, high) in places]
         self._raise()
         self._extremes: dict[tuple[int, Fraction, Fraction], Extremes] = {}
+        self._of_motions: dict[tuple[Any, MotionFormula], Any] = {}
 
     def _raise(self) -> None:
         """Let each polynomial begin at the end value of its predecessor."""
@@ -215,9 +220,19 @@ class ExactLaw:
         with ctx.workprec(self.precision):
             tops = []
             for branch in split(motion, sign, "") or []:
-                least, greatest = extremes_of(branch.motion, self.polynomials)
+                least, greatest = self._of_motion(extremes_of, branch.motion)
                 tops.append(greatest if branch.sign > 0 else -least)
             return reduce(arb.max, tops)
+
+    def _of_motion(
+        self, enclosed_of: Callable[[MotionFormula, Sequence[PolynomialPiece]], Enclosure], motion: MotionFormula
+    ) -> Enclosure:
+        """The integral or the extremes of a formula along the law, which several conditions may ask for."""
+        key = enclosed_of, motion
+        if key not in self._of_motions:
+            self._of_motions[key] = enclosed_of(motion, self.polynomials)
+        enclosure: Enclosure = self._of_motions[key]
+        return enclosure
 
     def term(self, term: Term) -> arb:
         """A ball that holds the value of a constant or a maximum."""
@@ -243,10 +258,10 @@ class ExactLaw:
         if self._impulses(max(motion.orders, default=0)):
             return arb.pos_inf()
         if isinstance(constant, FormulaIntegral):
-            return integral_of(motion, self.polynomials)
+            return self._of_motion(integral_of, motion)
         if isinstance(constant, FormulaRms):
             whole = ball(Fraction(motion.stop) - Fraction(motion.start))
-            return (integral_of(squared(motion), self.polynomials) / whole).sqrt()
+            return (self._of_motion(integral_of, squared(motion)) / whole).sqrt()
         signs = constant.counted if isinstance(constant, FormulaPeak) else (1.0,)
         return reduce(arb.max, [self.greatest_of(motion, sign) for sign in signs])
 

@@ -23,7 +23,14 @@ from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.functionals.affine_rows import gauss_parts
 from optlaws.synthesis.functionals.curved_rows import Branch, integral_rows, rule_edges, rule_length, squared
 from optlaws.synthesis.spaces.of_basis import space_of
-from optlaws.verification.enclosing.ball_formulas import BALLS, POLYNOMIALS, composed, exact_pieces, series_of
+from optlaws.verification.enclosing.ball_formulas import (
+    BALLS,
+    POLYNOMIALS,
+    composed,
+    exact_pieces,
+    series_of,
+    series_on_cell,
+)
 from optlaws.verification.enclosing.balls import Extremes, ball, rational
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.enclosing.space import ExactSpace
@@ -49,7 +56,7 @@ def kinks(motion: MotionFormula) -> list[Fraction]:
     [Fraction(1, 2), Fraction(3, 4)]
     """
     exact, inexact = [], []
-    for part in motion.formula.walk():
+    for part in motion.formula.different:
         for difference in _vanishing(part) if part.names() <= {"k"} else ():
             root = _root(difference)
             if root is None:
@@ -228,16 +235,19 @@ class _FormulaPart:
 
     def series(self, k: arb_series) -> tuple[arb_series]:
         """Its Taylor series, to as many terms as series have."""
-        y = (k - ball(self.piece.start)) * arb(self.piece.rate) - 1
         used = self.formula.names() & ORDERS.keys()
-        names = {name: composed(self.piece.derivative(ORDERS[name]), y) for name in used}
-        return (series_of(self.formula, {**names, "k": k}),)
+
+        def names(k: arb_series) -> dict[str, arb_series]:
+            y = (k - ball(self.piece.start)) * arb(self.piece.rate) - 1
+            return {"k": k, **{name: composed(self.piece.derivative(ORDERS[name]), y) for name in used}}
+
+        return (series_on_cell(self.formula, names, k),)
 
 
 def _bent(formula: Formula) -> bool:
     """Whether functions of what varies are in it, or tables over what moves with the law."""
-    calls = any(isinstance(part, Call) and part.names() for part in formula.walk())
-    return calls or any(isinstance(part, Table) and not part.names() <= {"k"} for part in formula.walk())
+    calls = any(isinstance(part, Call) and part.names() for part in formula.different)
+    return calls or any(isinstance(part, Table) and not part.names() <= {"k"} for part in formula.different)
 
 
 def _parts(motion: MotionFormula, pieces: Sequence[PolynomialPiece]) -> Iterator[_FormulaPart]:

@@ -8,7 +8,20 @@ from typing import Any
 import mpmath as mp  # type: ignore[import-untyped]
 import pytest
 
-from optlaws import Chebyshev, Problem, at_most, integral, peak, smoothstep, synthesize
+from optlaws import (
+    Chebyshev,
+    Drive,
+    Loads,
+    Motor,
+    Problem,
+    at_most,
+    integral,
+    peak,
+    rms,
+    smoothstep,
+    synthesize,
+    toggle,
+)
 from optlaws.verification import verify
 from tests.formulas.mpmath_numbers import MPMATH
 from tests.internals.formulas import Formula, Table, evaluate, horner, of_text, pieces
@@ -158,3 +171,16 @@ def test_an_integral_is_enclosed_to_the_last_digits_of_a_float() -> None:
     low, high = enclosed(ExactLaw(law).sum(problem.objective))
     assert 0.0 <= high - low <= 8.0 * 2.0**-52 * high
     assert low * (1.0 - 1e-10) <= value_in_doubles(problem, law).objective <= high * (1.0 + 1e-10)
+
+
+def test_long_torques_with_losses_are_enclosed_as_short_ones() -> None:
+    """Where the direction of the power changes the torque has a kink, which is found however often x is in it."""
+    lengths = {"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "200 mm", "frame": "280 mm"}
+    press = toggle(lengths, bodies={"crank": "0.5 kg m^2", "ram": "12 kg"}, loads=Loads("-600 N"))
+    drive = Drive(press, Motor("1e-3 kg m^2"), ratio=10, efficiency=0.95)
+    moved = drive.dimensionless("0 deg", "360 deg", "0.5 s")
+    law = smoothstep(3)
+    for constant in (rms(moved.torque), peak(moved.torque, side="high"), peak(moved.branches[-1])):
+        value = ExactLaw(law).term(constant)
+        assert float(value.rad()) < 1e-15
+        assert float(value) == pytest.approx(constant.value(law), rel=1e-12)
