@@ -533,6 +533,20 @@ def test_lifts_behind_ramps_with_blends_have_corners_where_they_leave_these_at_r
     assert np.abs(table.at(x) - exact).max() <= 4.0 * noise
 
 
+def test_corners_of_a_table_of_five_decimals_and_the_crest_between_them_are_placed_together() -> None:
+    """Half a step beside a corner is 800 times the noise here, and hides a joint at the crest."""
+    x = np.linspace(0.0, 360.0, 1441)
+    lift = BPoly.from_derivatives([78.0, 134.0], [[0.2695, 0.0, 0.0], [6.4539, 0.0, -0.0047]])
+    away = np.minimum(x, 268.0 - x)
+    ramp = 0.2695 - 0.01925 * (78.0 - away)
+    y = np.select([away <= 64.0, away < 78.0], [0.0, ramp], lift(np.minimum(away, 134.0)))
+    table = split_table(x, np.round(y, 5), digit=1e-5)
+    assert table.corners == pytest.approx((64.0, 78.0, 190.0, 204.0), abs=1e-3)
+    assert table.stretches[2].stop == pytest.approx(134.0, abs=1e-2)
+    assert table.outliers == ()
+    assert np.abs(table.at(x) - y).max() <= 1.5e-5
+
+
 def test_an_index_of_four_lobes_has_four_equal_moves_also_at_its_seam() -> None:
     """The advance is that of the first and the last row, whose noise bent the last move and made dwells return."""
     x, law = np.linspace(0.0, 360.0, 721), catalogue["modified sine"].law

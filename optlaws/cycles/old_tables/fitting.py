@@ -255,13 +255,13 @@ class _Search:
         ends = before._replace(low=first), after._replace(high=last)
         search = _Search(replace(self.fitter, corners=corners, ends=ends), self.most)
         middles = [0.5 * (end.low + end.high) for end in ends]
-        start, stop = middles[0] if corners[0] else best.start, middles[1] if corners[1] else best.stop
+        begun = middles[0] if corners[0] else best.start, middles[1] if corners[1] else best.stop
         tried = []
         for joint in ((), *((Joint(turn, 2),) for turn in _turns(best))):
-            joints = search.fitter.placed((start, stop), joint, _SIMPLE)
-            if family := search.climbed(joints, (start, stop), 0.0):
+            at, joints = search.fitter.placed_together(begun, joint, _SIMPLE) if joint else (begun, joint)
+            if family := search.climbed(joints, at, 0.0):
                 # few pieces do not tell where a corner is
-                at = search.fitter.ends_of(start, stop, joints, search.best(family).pieces, step)
+                at = search.fitter.ends_of(*at, joints, search.best(family).pieces, step)
                 tried.append((search, joints, search.climbed(joints, at, 0.0) or family))
         return min(tried, key=lambda each: search.criterion(search.best(each[2])), default=(search, (), []))
 

@@ -18,6 +18,10 @@ _LEFT = 2
 _SEARCHED = 160
 #: a smoother joint is preferred if it lowers the sum of squares by so much of what the best one does
 _AS_GOOD = 0.8
+#: of sums of squares, where there are too few rows for a fit
+_MOST = 1e300
+#: steps about a joint, and of a step, within which and how nearly it is placed together with ends
+_JOINT_ROOM, _TOGETHER = 8.0, 0.01
 #: of a step: about a joint it is looked for within less and less
 _WIDTHS = (2.0, 0.5, 0.12, 0.03, 0.008, 0.002)
 #: where the end of a rest is looked for first, from its move on, as shares of where it may be
@@ -276,3 +280,29 @@ class LeastSquares:
                     squares.append(self.solved(*fit, others, pieces)[0])
                 moved[i] = Joint(float(tried[int(np.argmin(squares))]), joint.continuity)
         return tuple(sorted(moved))
+
+    def placed_together(
+        self, fit: tuple[float, float], joints: Sequence[Joint], pieces: int
+    ) -> tuple[tuple[float, float], tuple[Joint, ...]]:
+        """Ends and joints moved to where the sum of squares is least, all at once, for corners hide joints."""
+        from scipy.optimize import minimize
+
+        step = float(np.median(np.diff(self.x)))
+        begun = np.array([*fit, *(joint.place for joint in joints)])
+        low = np.array([*(end.low for end in self.ends), *(begun[2:] - _JOINT_ROOM * step)])
+        high = np.array([*(end.high for end in self.ends), *(begun[2:] + _JOINT_ROOM * step)])
+
+        def at(places: Array) -> tuple[Joint, ...]:
+            moved = zip(places[2:].tolist(), joints, strict=True)
+            return tuple(sorted(Joint(place, joint.continuity) for place, joint in moved))
+
+        def squares(places: Array) -> float:
+            return min(self.solved(float(places[0]), float(places[1]), at(places), pieces)[0], _MOST)
+
+        begun = np.clip(begun, low, high)
+        simplex = np.clip(begun + step * np.vstack([np.zeros_like(begun), np.eye(len(begun))]), low, high)
+        start, stop, *_ = best = minimize(
+            squares, begun, method="Nelder-Mead", bounds=list(zip(low, high, strict=True)),
+            options={"initial_simplex": simplex, "xatol": _TOGETHER * step, "fatol": 0.1, "maxfev": 400},
+        ).x  # fmt: skip
+        return (float(start), float(stop)), at(best)

@@ -89,7 +89,8 @@ def _divided(
     """The turn as it is begun, its rests and its moves; further rests that are none join the crests."""
     while True:
         begun, rests = _begun(samples, crests, advance)
-        divided = Parts.joined([region.parts for region in _regions(samples, begun, rests, advance, known)])
+        parts = [region.parts for region in _regions(samples, begun, rests, advance, known)]
+        divided = Parts.joined(parts, len(rests))
         more = _crests(begun, rests, divided.moves)
         if not more:
             return begun, rests, divided
@@ -116,7 +117,7 @@ def _explaining_crests(
         explained = [region.explained for region in _regions(samples, begun, others, advance, known)]
         parts = [each for each in explained if each is not None]
         if len(parts) == len(explained):
-            tried.append((Parts.joined(parts).criterion(len(samples.places)), crests))
+            tried.append((Parts.joined(parts, len(others)).criterion(len(samples.places)), crests))
     return min(tried, key=lambda each: each[0], default=(0.0, list[float]()))[1]
 
 
