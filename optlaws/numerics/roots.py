@@ -99,7 +99,8 @@ def _turning_points(places: Array, values: Array) -> Array:
         slope = rise + bend * (y - x)
         at = y - slope / (2.0 * bend)
         height = g - slope**2 / (4.0 * bend)
-    near = (np.sign(f) == np.sign(g)) & (np.sign(g) == np.sign(h)) & (height * np.sign(g) < _NEAR_NOTHING * np.abs(g))
+        above = height * np.sign(g)
+    near = (np.sign(f) == np.sign(g)) & (np.sign(g) == np.sign(h)) & (above < _NEAR_NOTHING * np.abs(g))
     return np.unique(at[near & (x < at) & (at < z)])
 
 

@@ -82,8 +82,6 @@ from optlaws.synthesis.search import LawSearch, attempt
 from optlaws.synthesis.solve import _neighbours
 from optlaws.synthesis.solve_many import _together, solved
 from optlaws.synthesis.spaces.bases import basis
-from optlaws.synthesis.spaces.free_pieces import PieceSpace, piece_space
+from optlaws.synthesis.spaces.free_pieces import PieceSpace
 from optlaws.synthesis.spaces.of_basis import space_of
-from optlaws.synthesis.spaces.polynomial_space import polynomial_space
 from optlaws.synthesis.spaces.space import LawSpace
-from optlaws.synthesis.spaces.spline_space import spline_space

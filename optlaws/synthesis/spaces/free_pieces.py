@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -15,6 +14,7 @@ from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.families.piece_series import PieceSeries
+from optlaws.synthesis.spaces.bases import Pieces
 from optlaws.synthesis.spaces.divided_rows import above_rest
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.space import Equation, LawSpace
@@ -26,30 +26,23 @@ class PieceSpace(LawSpace):
     Coordinates are the coefficients of the acceleration in B-splines, which makes them local and well conditioned.
     Where `symmetric` they describe the first half only.
 
-    >>> space = piece_space(BoundaryConditions.rest(2), (0.0, 0.5, 1.0), 2, 1, symmetric=False)
+    >>> space = PieceSpace(BoundaryConditions.rest(2), Pieces(2, 2, 1), symmetric=False)
     >>> space.terms
     2
     """
 
-    def __init__(
-        self, boundary: BoundaryConditions, breaks: tuple[float, ...], degree: int, continuity: int, *, symmetric: bool
-    ) -> None:
-        super().__init__(breaks, continuity, symmetric=symmetric)
-        self.boundary = boundary
-        places = np.array([k for k in breaks if not symmetric or k <= 0.5])
-        self.k = places
-        self._order = degree - 2
-        self._acceleration = self._splines(places, self._order, self._order - (continuity - 2))
-        self._free_start = boundary.order == 1
-        if self._free_start:
+    keeps_ends = False
+
+    def __init__(self, boundary: BoundaryConditions, basis: Pieces, *, symmetric: bool) -> None:
+        super().__init__(boundary, basis.breaks, basis.continuity, symmetric=symmetric)
+        self.k = np.array([k for k in basis.breaks if not symmetric or k <= 0.5])
+        self._degree = basis.degree - 2
+        acceleration = self._splines(self.k, self._degree, self._degree - (basis.continuity - 2))
+        if self.order == 1:
             # one more coordinate: the velocity at the start, beyond that of a = a(0) + stroke k
-            self._acceleration = np.insert(self._acceleration, -1, 0.0, axis=2)
-        self.terms = self._acceleration.shape[2] - 1
-        self._pieces[2] = PieceSeries(1.0 - 2.0 * places, self._acceleration)
-        self.stroke = float(boundary.end[0]) - float(boundary.start[0])
-        self.start_velocity = self.stroke if self._free_start else float(boundary.start[1])
-        end_velocity = self.stroke if self._free_start else float(boundary.end[1])
-        self.velocity_change = end_velocity - self.start_velocity
+            acceleration = np.insert(acceleration, -1, 0.0, axis=2)
+        self.terms = acceleration.shape[2] - 1
+        self._pieces[2] = PieceSeries(1.0 - 2.0 * self.k, acceleration)
 
     def _splines(self, breaks: Array, order: int, multiplicity: int) -> Array:
         """Chebyshev series of every B-spline on every piece, and a zero column for the base law."""
@@ -66,22 +59,18 @@ class PieceSpace(LawSpace):
             series[i, :, :-1] = from_values(values)
         return series
 
-    def pieces(self, nu: int) -> PieceSeries:
-        if nu not in self._pieces:
-            if nu > 2:
-                lower = self.pieces(nu - 1).derivative()
-                self._pieces[nu] = PieceSeries(lower.breaks, -2.0 * lower.series)
-            else:
-                value = np.zeros(self.terms + 1)
-                value[-1] = self.start_velocity if nu == 1 else float(self.boundary.start[0])
-                if nu == 1 and self._free_start:
-                    value[-2] = 1.0
-                self._pieces[nu] = self._integrated(self.pieces(nu + 1), value)
-        return self._pieces[nu]
+    def _table(self, nu: int) -> PieceSeries:
+        if nu > 2:
+            return super()._table(nu)
+        value = np.zeros(self.terms + 1)
+        value[-1] = self.start_velocity if nu == 1 else float(self.boundary.start[0])
+        if nu == self.order == 1:
+            value[-2] = 1.0
+        return self._integrated(self.pieces(nu + 1), value)
 
     def vanishing(self, nu: int) -> int:
         """Accelerations of a degree below nu - 2, and the velocity at the start where it is free."""
-        return max(nu - 2, 0) + (self._free_start and nu > 1)
+        return max(nu - 2, 0) + (self.order == 1 < nu)
 
     @staticmethod
     def _integrated(pieces: PieceSeries, value: Array) -> PieceSeries:
@@ -96,20 +85,19 @@ class PieceSpace(LawSpace):
         return PieceSeries(pieces.breaks, np.stack(integrals))
 
     def forward(self, slack: Array) -> ConstraintFamily:
-        order = self.boundary.order
         whole = len(self.k) == 2 and not self.symmetric
-        if order == 1 or whole or self.boundary != BoundaryConditions.rest(order):
+        if self.order == 1 or whole or not self.at_rest:
             return super().forward(slack)
-        table = above_rest(self.pieces(1), self.pieces(order), order).widened(len(slack))
+        table = above_rest(self.pieces(1), self.pieces(self.order), self.order).widened(len(slack))
         return LinearFamily(RowName.RATIO, slack, domain=self.domain, table=table)
 
     def equations(self) -> list[Equation]:
         """The end conditions that the base law and the splines do not keep by themselves."""
-        order = self.boundary.order
+        order = self.order
         conditions = [(nu, 0.0, float(self.boundary.start[nu])) for nu in range(2, order)]
         if self.symmetric:
             conditions += [(0, 0.5, 0.5 * (float(self.boundary.start[0]) + float(self.boundary.end[0])))]
-            conditions += [(nu, 0.5, 0.0) for nu in range(2, min(self.continuity, self._order + 2) + 1, 2)]
+            conditions += [(nu, 0.5, 0.0) for nu in range(2, min(self.continuity, self._degree + 2) + 1, 2)]
         else:
             conditions += [(nu, 1.0, float(self.boundary.end[nu])) for nu in range(order)]
         symbols = ("a", "b", "c", "j")
@@ -137,15 +125,3 @@ class PieceSpace(LawSpace):
             ]
             breaks += [1.0 - k for k in breaks[-2::-1]]
         return PiecewiseLaw(breaks, segments, float(self.boundary.start[0]))
-
-    def z_series(self, coordinates: Array) -> Array:  # noqa: ARG002 - what others of its kind need
-        """Empty: the law is not written with a Z."""
-        return np.empty(0)
-
-
-@lru_cache(maxsize=16)
-def piece_space(
-    boundary: BoundaryConditions, breaks: tuple[float, ...], degree: int, continuity: int, *, symmetric: bool
-) -> PieceSpace:
-    """The law space, cached for the next call."""
-    return PieceSpace(boundary, breaks, degree, continuity, symmetric=symmetric)

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from functools import lru_cache, singledispatch
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
+from optlaws.synthesis.spaces.bases import Basis, Chebyshev, Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
-from optlaws.synthesis.spaces.free_pieces import PieceSpace, piece_space
-from optlaws.synthesis.spaces.periodic_pieces import PeriodicPieces, PeriodicSpace, periodic_space
-from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace, polynomial_space
+from optlaws.synthesis.spaces.free_pieces import PieceSpace
+from optlaws.synthesis.spaces.periodic_pieces import PeriodicPieces, PeriodicSpace
+from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 from optlaws.synthesis.spaces.space import LawSpace
-from optlaws.synthesis.spaces.spline_space import SplineSpace, spline_space
+from optlaws.synthesis.spaces.spline_space import SplineSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 
 _CONVERSION_AGREES = 1e-8  # how near conversions between bases come, where even powers lose no digits
@@ -24,31 +25,38 @@ _CONVERSION_AGREES = 1e-8  # how near conversions between bases come, where even
 _CHECKED = 6
 
 
-@singledispatch
+#: the space of each kind of basis, of a special kind before those that it is one of
+_SPACES: tuple[tuple[type[Basis], Callable[..., LawSpace]], ...] = (
+    (PolynomialBasis, PolynomialSpace),
+    (PeriodicPieces, PeriodicSpace),
+    (Pieces, PieceSpace),
+    (PiecewiseBasis, SplineSpace),
+)
+
+
+@lru_cache(maxsize=64)
 def space_of(basis: Basis, boundary: BoundaryConditions, *, symmetric: bool) -> LawSpace:
-    """The space of laws with the given basis and end conditions; register one for a new kind of basis.
+    """The space of laws with the given basis and end conditions, cached for the next call.
 
     Raises
     ------
     InputError
-        If none is registered.
+        If there is none for this kind of basis, or its conversions contradict each other.
 
     Examples
     --------
-    >>> from optlaws import Chebyshev
     >>> space_of(Chebyshev(9), BoundaryConditions.rest(4), symmetric=True).terms
     5
     """
-    raise InputError(f"no space of laws is registered for {basis!r} (boundary {boundary!r}, symmetric {symmetric!r})")
+    if isinstance(basis, PolynomialBasis) and type(basis) is not Chebyshev:
+        check_conversions(replace(basis, degree=min(basis.degree, _CHECKED)))
+        return space_of(Chebyshev(basis.degree), boundary, symmetric=symmetric)
+    for kind, space in _SPACES:
+        if isinstance(basis, kind):
+            return space(boundary, basis, symmetric=symmetric)
+    raise InputError(f"there is no space of laws for {basis!r}: a basis is of polynomials, pieces or splines")
 
 
-@space_of.register
-def _(basis: PolynomialBasis, boundary: BoundaryConditions, *, symmetric: bool) -> PolynomialSpace:
-    check_conversions(replace(basis, degree=min(basis.degree, _CHECKED)))
-    return polynomial_space(boundary, basis.degree, symmetric=symmetric)
-
-
-@lru_cache(maxsize=64)
 def check_conversions(basis: PolynomialBasis) -> None:
     """See that a basis leads from a Chebyshev series to its coefficients and back."""
     # any numbers do, and those of numpy.random take as long to import as a law takes to solve
@@ -70,18 +78,3 @@ def check_conversions(basis: PolynomialBasis) -> None:
 
 def _shown(series: NDArray[np.float64]) -> str:
     return f"[{', '.join(f'{value:.4g}' for value in np.ravel(series)[: _CHECKED + 1])}]"
-
-
-@space_of.register
-def _(basis: Pieces, boundary: BoundaryConditions, *, symmetric: bool) -> PieceSpace:
-    return piece_space(boundary, basis.breaks, basis.degree, basis.continuity, symmetric=symmetric)
-
-
-@space_of.register
-def _(basis: PeriodicPieces, boundary: BoundaryConditions, *, symmetric: bool) -> PeriodicSpace:  # noqa: ARG001 - never
-    return periodic_space(boundary, basis)
-
-
-@space_of.register
-def _(basis: PiecewiseBasis, boundary: BoundaryConditions, *, symmetric: bool) -> SplineSpace:
-    return spline_space(boundary, basis, symmetric=symmetric)

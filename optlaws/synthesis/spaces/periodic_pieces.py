@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
 from typing import Any
 
@@ -86,15 +85,15 @@ class PeriodicSpace(PieceSpace):
 
     Examples
     --------
-    >>> periodic_space(BoundaryConditions((0.0,), (0.0,)), PeriodicPieces(4, 5, 3)).terms
+    >>> PeriodicSpace(BoundaryConditions((0.0,), (0.0,)), PeriodicPieces(4, 5, 3), symmetric=False).terms
     9
     """
 
-    def __init__(self, boundary: BoundaryConditions, basis: PeriodicPieces) -> None:
+    def __init__(self, boundary: BoundaryConditions, basis: PeriodicPieces, *, symmetric: bool) -> None:
         if boundary.order != 1:
             raise InputError(f"laws that repeat have one condition at each end, their order is 1, not {boundary.order}")
         self._straight = basis.straight
-        super().__init__(boundary, basis.breaks, basis.degree, basis.continuity, symmetric=False)
+        super().__init__(boundary, basis, symmetric=symmetric)
 
     def _splines(self, breaks: Array, order: int, multiplicity: int) -> Array:
         """Chebyshev series of every periodic B-spline that is 0 on straight pieces, on every piece; then a zero."""
@@ -122,9 +121,3 @@ class PeriodicSpace(PieceSpace):
         """The displacement at the end, and that the velocity ends as it began."""
         row = self.row(1, 1.0) - self.row(1, 0.0)
         return [*super().equations(), Equation("b(1) = b(0)", row[:-1], -float(row[-1]))]
-
-
-@lru_cache(maxsize=16)
-def periodic_space(boundary: BoundaryConditions, basis: PeriodicPieces) -> PeriodicSpace:
-    """The law space, cached for the next call."""
-    return PeriodicSpace(boundary, basis)

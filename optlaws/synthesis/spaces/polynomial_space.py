@@ -7,20 +7,18 @@ Gegenbauer series (of index l + 1/2 and l - 3/2): every free function has a clos
 
 from __future__ import annotations
 
-from functools import lru_cache
 from sys import maxsize
 
 import numpy as np
-from numpy.polynomial import chebyshev
 
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import basis_values, from_values, gegenbauer, nodes
+from optlaws.numerics.chebyshev import from_values, gegenbauer, nodes
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.families.piece_series import EvenGegenbauer, PieceSeries
-from optlaws.synthesis.spaces.divided_rows import chord
+from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, law_from_z
 from optlaws.synthesis.spaces.space import LawSpace
 
@@ -34,35 +32,26 @@ class PolynomialSpace(LawSpace):
     ----------
     boundary
         End conditions; if `symmetric`, those of a law with a(k) + a(1-k) = 1.
-    degree
-        Degree of Z.
+    basis
+        The basis of Z, of which the degree counts.
     symmetric
         Keep to symmetric laws: half the coordinates, and constraints need to hold on half the interval only.
 
     Examples
     --------
-    >>> space = polynomial_space(BoundaryConditions.rest(4), 3, symmetric=True)
+    >>> from optlaws import Chebyshev
+    >>> space = PolynomialSpace(BoundaryConditions.rest(4), Chebyshev(3), symmetric=True)
     >>> space.terms, round(float(space.middle[-1]), 12)
     (2, 2.1875)
     """
 
-    def __init__(self, boundary: BoundaryConditions, degree: int, *, symmetric: bool) -> None:
-        super().__init__((0.0, 1.0), maxsize, symmetric=symmetric)
-        #: the places of the last columns, as bytes, with Chebyshev polynomials there
-        self._last_basis: tuple[bytes, Array] = (b"", np.empty((0, 0)))
-        self.boundary, self.degree = boundary, degree
-        self.order = boundary.order
-        self.at_rest = boundary == BoundaryConditions.rest(self.order)
-        self.base = law_from_z(boundary)
-        self.start_velocity = float(self.base.b(0.0))
-        self.velocity_change = float(self.base.b(1.0)) - self.start_velocity
-        self.stroke = float(self.base.a(1.0)) - float(self.base.a(0.0))
+    def __init__(self, boundary: BoundaryConditions, basis: PolynomialBasis, *, symmetric: bool) -> None:
+        super().__init__(boundary, (0.0, 1.0), maxsize, symmetric=symmetric)
+        self.degree, self.base = basis.degree, law_from_z(boundary)
         #: degrees of the free velocities' Gegenbauer polynomials; Z has one degree less
-        self.index = np.arange(2, degree + 2, 2) if symmetric else np.arange(1, degree + 2)
+        self.index = np.arange(2, self.degree + 2, 2) if symmetric else np.arange(1, self.degree + 2)
         self.terms = len(self.index)
-        count = 2 * self.order + degree + 3
-        self._u = nodes(count)
-        self._series: dict[int, Array] = {}
+        self._u = nodes(2 * self.order + self.degree + 3)
 
     @kept_property
     def _shapes(self) -> tuple[Array, Array, Array, Array]:
@@ -89,23 +78,21 @@ class PolynomialSpace(LawSpace):
 
     def series(self, nu: int) -> Array:
         """Chebyshev series in u = 1 - 2k of the derivative of order nu, the base law's as the last column."""
-        if nu not in self._series:
-            if nu > 2:
-                lower = self.series(nu - 1)
-                series: Array = np.zeros_like(lower)
-                if len(lower) > 1:
-                    series = -2.0 * np.asarray(chebyshev.chebder(lower), dtype=np.float64)
-            else:
-                base = self.base((1.0 - self._u) / 2.0, nu)
-                values = np.column_stack([(self._shapes[nu] * self.scale[:, None]).T, base])
-                # what lies beyond the degree is rounding
-                series = from_values(values)[: 2 * self.order + self.degree + 1 - nu]
-                if self.symmetric:
-                    # a - 1/2 and c are odd about the middle, b is even: rounding must not blur it
-                    series[(1 if nu == 1 else (2 if nu == 0 else 0)) :: 2] = 0.0
-            series.setflags(write=False)
-            self._series[nu] = series
-        return self._series[nu]
+        return np.asarray(self.pieces(nu).series[0])
+
+    def _table(self, nu: int) -> PieceSeries:
+        """The series on the whole interval, of symmetric laws too."""
+        if nu > 2:
+            return super()._table(nu)
+        base = self.base((1.0 - self._u) / 2.0, nu)
+        values = np.column_stack([(self._shapes[nu] * self.scale[:, None]).T, base])
+        # what lies beyond the degree is rounding
+        series = from_values(values)[: 2 * self.order + self.degree + 1 - nu]
+        if self.symmetric:
+            # a - 1/2 and c are odd about the middle, b is even: rounding must not blur it
+            series[(1 if nu == 1 else (2 if nu == 0 else 0)) :: 2] = 0.0
+        series.setflags(write=False)
+        return PieceSeries.whole(series)
 
     def law(self, coordinates: Array) -> PolynomialLaw:
         """The law with the given coordinates (one for each free function)."""
@@ -135,29 +122,12 @@ class PolynomialSpace(LawSpace):
             mirrored[::2] = 0.0
         return mirrored
 
-    def pieces(self, nu: int) -> PieceSeries:
-        """The series on the whole interval, of symmetric laws too."""
-        return PieceSeries.whole(self.series(nu))
-
     def backward(self, slack: Array, bound: float) -> LinearFamily:
         """Rows -b <= slack . x + bound; b is even about 1/2 where the law is symmetric."""
         if not self.symmetric:
             return super().backward(slack, bound)
         table = PieceSeries.whole(self.series(1)[::2]).widened(len(slack))
         return LinearFamily(RowName.VELOCITY, slack, bound, (-1.0,), table=table, even=True)
-
-    def columns(self, nu: int, u: Array) -> Array:
-        """The derivative of order nu at places u = 1 - 2k: free functions, then the base law."""
-        series, key, known = self.series(nu), u.tobytes(), self._last_basis
-        if known[0] != key or known[1].shape[1] < len(series):
-            # derivatives are asked for at the same places, the lowest mostly first
-            known = self._last_basis = key, basis_values(np.clip(u, -1.0, 1.0), len(self.series(0)))
-        return np.asarray(known[1][:, : len(series)] @ series)
-
-    def row(self, nu: int, k: float) -> Array:
-        if k in {0.0, 1.0} and nu < self.order:
-            return self.end_row(nu, k)
-        return np.asarray(chebyshev.chebval(1.0 - 2.0 * k, self.series(nu)))
 
     @kept_property
     def middle(self) -> Array:
@@ -166,14 +136,10 @@ class PolynomialSpace(LawSpace):
 
     def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
         """Rows b <= b(peak) of laws with c(peak) = 0, divided by (2k - 2 peak)²: else they were ill posed."""
-        series = -_chord(self.series(1)[::2]) if self.symmetric else self._below(1.0 - 2.0 * peak)
-        table = PieceSeries.whole(series).widened(len(slack))
-        return LinearFamily(RowName.BELOW_PEAK, slack, table=table, even=self.symmetric)
-
-    def _below(self, centre: float) -> Array:
-        j = self.series(3)
-        values = chord(lambda u: np.asarray(chebyshev.chebval(u, j).T), self._u, centre, len(self.series(1)) - 1)
-        return from_values(values)[: max(len(self.series(1)) - 2, 1)]
+        if not self.symmetric:
+            return super().below(slack, peak)
+        table = PieceSeries.whole(-_chord(self.series(1)[::2])).widened(len(slack))
+        return LinearFamily(RowName.BELOW_PEAK, slack, table=table, even=True)
 
     def forward(self, slack: Array) -> ConstraintFamily:
         """Rows b >= 0, from rest to rest as b / (k(1-k))^(l-1) >= 0 (in units of the base law's)."""
@@ -191,12 +157,6 @@ class PolynomialSpace(LawSpace):
         """The scale of the free functions in units of b / (k(1-k))^(l-1) of the base law S_l."""
         power = 4.0 ** (self.order - 1)
         return self.scale * power / (power * float(self.base.b(0.5)))
-
-
-@lru_cache(maxsize=128)
-def polynomial_space(boundary: BoundaryConditions, degree: int, *, symmetric: bool) -> PolynomialSpace:
-    """The law space, cached for the next call."""
-    return PolynomialSpace(boundary, degree, symmetric=symmetric)
 
 
 def _chord(even: Array) -> Array:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -49,8 +50,8 @@ class LawSpace(ABC):
 
     Attributes
     ----------
-    boundary
-        End conditions.
+    boundary, order, at_rest
+        End conditions, how many there are at each end, and whether they are those of rest.
     breaks
         All breaks of the laws, of both halves.
     continuity
@@ -65,15 +66,21 @@ class LawSpace(ABC):
         b(0), b(1) - b(0) and a(1) - a(0) of the base law.
     """
 
-    boundary: BoundaryConditions
     terms: int
-    start_velocity: float
-    velocity_change: float
-    stroke: float
+    keeps_ends: ClassVar[bool] = True  #: whether every function keeps the end conditions, so that no equations need to
 
-    def __init__(self, breaks: tuple[float, ...], continuity: int, *, symmetric: bool) -> None:
+    def __init__(
+        self, boundary: BoundaryConditions, breaks: tuple[float, ...], continuity: int, *, symmetric: bool
+    ) -> None:
+        self.boundary, self.order = boundary, boundary.order
+        self.at_rest = boundary == BoundaryConditions.rest(self.order)
         self.breaks, self.continuity, self.symmetric = breaks, continuity, symmetric
         self.domain = (0.0, 1.0) if symmetric else (-1.0, 1.0)
+        self.stroke = float(boundary.end[0]) - float(boundary.start[0])
+        # with one condition at each end the base law is a straight line
+        ends = (boundary.start[1], boundary.end[1]) if self.order > 1 else (self.stroke, self.stroke)
+        self.start_velocity = float(ends[0])
+        self.velocity_change = float(ends[1]) - self.start_velocity
         self._pieces: dict[int, PieceSeries] = {}
         self._cache: dict[Hashable, Array] = {}
 
@@ -92,9 +99,9 @@ class LawSpace(ABC):
     def law(self, coordinates: Array) -> MotionLaw:
         """The law with the given coordinates."""
 
-    @abstractmethod
-    def z_series(self, coordinates: Array) -> Array:
-        """Chebyshev series of Z in 2k - 1; empty where the laws have none."""
+    def z_series(self, coordinates: Array) -> Array:  # noqa: ARG002 - what others of its kind need
+        """Chebyshev series of Z in 2k - 1, on each piece where it is piecewise; empty where the laws have no Z."""
+        return np.empty(0)
 
     def derivative(
         self, nu: int, name: str, slack: Array, bound: float = 0.0, signs: tuple[float, ...] = (1.0, -1.0)
@@ -150,9 +157,15 @@ class LawSpace(ABC):
         matrix = np.sqrt(rule.weights)[:, None] * rule.values
         return NormFamily(name, slack, bound, matrix=widened(matrix, len(slack)))
 
-    @abstractmethod
     def pieces(self, nu: int) -> PieceSeries:
         """Series of the derivative of order nu between breaks of the domain, the base law's column last."""
+        if nu not in self._pieces:
+            self._pieces[nu] = self._table(nu)
+        return self._pieces[nu]
+
+    def _table(self, nu: int) -> PieceSeries:
+        """The same, of the derivative of the order below."""
+        return self.pieces(nu - 1).derivative().scaled(np.full(self.terms + 1, -2.0))
 
     def columns(self, nu: int, u: Array) -> Array:
         """The derivative of order nu at places u = 1 - 2k, shape (places, terms + 1): the base law's is the last."""
@@ -177,12 +190,10 @@ class LawSpace(ABC):
         return 0
 
     def row(self, nu: int, k: float) -> Array:
-        """The derivative of order nu at k: free functions, then the base law."""
+        """The derivative of order nu at k: free functions, then the base law; end conditions are without rounding."""
+        if k in {0.0, 1.0} and nu < self.order and self.keeps_ends:
+            return np.append(np.zeros(self.terms), float((self.boundary.end if k else self.boundary.start)[nu]))
         return np.asarray(self.pieces(nu).values(np.array([1.0 - 2.0 * k]))[0])
-
-    def end_row(self, nu: int, k: float) -> Array:
-        """The row of a derivative that the end conditions give, at 0 or at 1: without rounding."""
-        return np.append(np.zeros(self.terms), float((self.boundary.end if k else self.boundary.start)[nu]))
 
     def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
         """Rows b <= b(peak) of laws with c(peak) = 0, divided by their zeros there; symmetric ones have it at 1/2."""

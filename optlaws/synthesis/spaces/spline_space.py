@@ -7,7 +7,7 @@ The coordinates are such that the accelerations of the free functions are orthon
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache, partial
+from functools import partial
 from itertools import pairwise
 from math import comb, perm
 
@@ -35,18 +35,13 @@ class SplineSpace(LawSpace):
     """Laws (8) with the given end conditions and Z in a piecewise basis, or, if `symmetric`, its part odd about 1/2.
 
     >>> from optlaws import BSplines
-    >>> [spline_space(BoundaryConditions.rest(3), BSplines(4), symmetric=half).terms for half in (False, True)]
+    >>> [SplineSpace(BoundaryConditions.rest(3), BSplines(4), symmetric=half).terms for half in (False, True)]
     [7, 3]
     """
 
     def __init__(self, boundary: BoundaryConditions, basis: PiecewiseBasis, *, symmetric: bool) -> None:
-        super().__init__(basis.breaks, basis.continuity, symmetric=symmetric)
-        self.boundary, self.basis, self.order = boundary, basis, boundary.order
-        self.at_rest = boundary == BoundaryConditions.rest(self.order)
-        self.base = law_from_z(boundary)
-        self.start_velocity = float(self.base.b(0.0))
-        self.velocity_change = float(self.base.b(1.0)) - self.start_velocity
-        self.stroke = float(self.base.a(1.0)) - float(self.base.a(0.0))
+        super().__init__(boundary, basis.breaks, basis.continuity, symmetric=symmetric)
+        self.basis, self.base = basis, law_from_z(boundary)
         self._parts = (*(k for k in self.breaks if k < 0.5), 0.5) if symmetric else self.breaks
         mixing = _odd(basis.functions) if symmetric else np.eye(basis.size)
         self.terms = mixing.shape[1]
@@ -57,16 +52,11 @@ class SplineSpace(LawSpace):
         self._z = self._z @ np.linalg.inv(root)
         self._pieces.clear()
 
-    def row(self, nu: int, k: float) -> Array:
-        return self.end_row(nu, k) if k in {0.0, 1.0} and nu < self.order else super().row(nu, k)
-
-    def pieces(self, nu: int) -> PieceSeries:
-        if nu not in self._pieces:
-            series = self._series(self._parts, 2 * self.order + self.basis.degree - nu, partial(self._derivative, nu))
-            # the local variable falls with k
-            series[:, 1::2] *= -1.0
-            self._pieces[nu] = PieceSeries(1.0 - 2.0 * np.array(self._parts), series)
-        return self._pieces[nu]
+    def _table(self, nu: int) -> PieceSeries:
+        series = self._series(self._parts, 2 * self.order + self.basis.degree - nu, partial(self._derivative, nu))
+        # the local variable falls with k
+        series[:, 1::2] *= -1.0
+        return PieceSeries(1.0 - 2.0 * np.array(self._parts), series)
 
     def _series(self, parts: tuple[float, ...], degree: int, values: Callable[[int, Array], Array]) -> Array:
         """Chebyshev series between `parts`, which may divide the pieces, of functions of a degree."""
@@ -128,7 +118,6 @@ class SplineSpace(LawSpace):
         return np.vstack([self._derivative(1, i, np.array([k])) for i, k in zip(pieces, self.breaks, strict=True)])
 
     def z_series(self, coordinates: Array) -> Array:
-        """Chebyshev series of Z on each piece, one after the other."""
         return np.asarray(self._z @ coordinates).reshape(-1)
 
 
@@ -146,12 +135,6 @@ def _continue(c: Array, lengths: Array, velocities: Array, flat: int) -> None:
     hill = chebyshev.chebpow([0.5, 0.0, -0.5], min(flat, (c.shape[1] - 1) // 2), maxpower=c.shape[1])
     hill /= hill[::2] @ shares[: len(hill[::2])]
     c[:, : len(hill)] += np.where(np.abs(missed) > rounding, missed, 0.0)[:, None] * hill
-
-
-@lru_cache(maxsize=16)
-def spline_space(boundary: BoundaryConditions, basis: PiecewiseBasis, *, symmetric: bool) -> SplineSpace:
-    """The law space, cached for the next call."""
-    return SplineSpace(boundary, basis, symmetric=symmetric)
 
 
 def _odd(functions: Array) -> Array:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from optlaws import BoundaryConditions, Chebyshev, Pieces, Problem, synthesize
-from tests.internals.synthesis import PieceSpace, piece_space, polynomial_space
+from tests.internals.synthesis import PieceSpace, space_of
 from tests.internals.verification import prove
 from tests.synthesis.judge import judge
 
@@ -14,7 +14,7 @@ from tests.synthesis.judge import judge
 @pytest.mark.parametrize("order", [1, 2, 4])
 @pytest.mark.parametrize("degree", [2, 3, 8, 15])
 def test_the_chord_of_unsymmetric_laws_is_what_it_says(order: int, degree: int) -> None:
-    space = polynomial_space(BoundaryConditions.rest(order), degree, symmetric=False)
+    space = space_of(Chebyshev(degree), BoundaryConditions.rest(order), symmetric=False)
     bend = space.row(2, 0.5)
     x = np.random.default_rng(degree).normal(size=space.terms)
     # the nearest law with c(1/2) = 0
@@ -36,7 +36,7 @@ def test_the_forward_rows_of_pieces_are_what_they_say(order: int, symmetric: boo
         Problem(B=2.1, order=order, basis=Pieces(6, 6, 4), minimise="J", monotone=True, symmetric=symmetric)
     )
     judge(solution)
-    space = piece_space(BoundaryConditions.rest(order), tuple(i / 6 for i in range(7)), 6, 4, symmetric=symmetric)
+    space = space_of(Pieces(6, 6, 4), BoundaryConditions.rest(order), symmetric=symmetric)
     assert solution.active_set is not None
     x = solution.active_set.x[: space.terms]
     k = np.array([1e-3, 0.05, 0.15, 0.2, 0.4, 0.5] if symmetric else [1e-3, 0.1, 0.2, 0.5, 0.8, 0.9, 0.999])

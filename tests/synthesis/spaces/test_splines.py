@@ -34,7 +34,7 @@ from optlaws import (
     via,
 )
 from optlaws.synthesis import PiecewiseBasis
-from tests.internals.synthesis import spline_space
+from tests.internals.synthesis import space_of
 from tests.sampling import sampled
 from tests.synthesis.judge import Judged
 
@@ -224,7 +224,7 @@ def test_a_basis_of_ones_own_is_one_class() -> None:
 @pytest.mark.parametrize("symmetric", [True, False])
 @pytest.mark.parametrize("order", [1, 4, 5, 6])
 def test_a_law_of_great_coordinates_ends_where_its_accelerations_lead(order: int, *, symmetric: bool) -> None:
-    space = spline_space(BoundaryConditions.rest(order), BSplines(10, 5, 3), symmetric=symmetric)
+    space = space_of(BSplines(10, 5, 3), BoundaryConditions.rest(order), symmetric=symmetric)
     law = space.law(3e3 * np.random.default_rng(order).normal(size=space.terms))
     judged = Judged(law)
     assert abs(judged.derivatives[0](1.0) - 1.0) < 5e-14 * judged.peak(1)
