@@ -60,7 +60,7 @@ class LeastDuration(Declared, title="a least time"):
     def row(self) -> Row:
         """What it needs, beside what it has."""
         limits = ", ".join(self.limits)
-        spare = f"{100.0 * (self.duration / self.least - 1.0):.3g} % to spare, then {limits}"
+        spare = f"{100.0 * (self.duration / self.least - 1.0):.3g} % to spare before {limits}"
         margin = f"no time left, by {limits}" if self.binding else spare
         return Row(f"{self.name} needs", self.least, "s", note=f"has {self.duration:.9g} s: {margin}")
 

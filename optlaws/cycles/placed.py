@@ -242,9 +242,11 @@ def refuse_beyond(cycle: Cycle) -> None:
     known = {f"motor's {name}" for name in ("peak torque", "torque-speed curve", "speed")}
     whole = [] if any(map(is_optimal, cycle.segments)) else _of_whole(cycle.unchecked(), cycle)
     of_whole = (each for each in whole if not each.is_kept and each.name not in known)
+    # what needs the most time first: with that, the others of its motion are kept as well
+    broken.sort(key=lambda each: each.taken.share ** (1.0 / max(each.key.kind.order, 1)), reverse=True)
     proof = (*(each.taken for each in broken), *of_whole)
     if proof:
-        others = "" if len(proof) == 1 else sentence("; beyond a limit is also {}", joined("; ", proof[1:]))
+        others = "" if len(proof) == 1 else sentence("; also beyond its limit: {}", joined("; ", proof[1:]))
         reason = _reason(broken[0], cycle) if broken else sentence(
             "limits: the {} over the cycle is {}, but its limit is {}: allow more, give the cycle more time, or give "
             "its moves other laws",

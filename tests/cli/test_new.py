@@ -173,7 +173,7 @@ def test_what_binds_the_overlap_of_two_axes_is_their_interlocks(capsys: Capture)
     assert exit_code(["run", "a.toml"]) == 0
     page = capsys.readouterr().out
     for name in ("leaves", "comes back"):
-        assert re.search(rf"\| bound by +\| {name} ", page)
+        assert re.search(rf"\| bound by +\| {name} +\| +\| interlock ", page)
         assert re.search(rf"\| {name} +\| clear +\| 0 .*\| 0 +\|", page)
     text = Path("a.toml").read_text("utf-8")
     Path("b.toml").write_text(re.sub(r"(?m)^overlap = .*", 'overlap = { goal = "period" }', text), "utf-8")

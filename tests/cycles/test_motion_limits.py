@@ -1,5 +1,6 @@
 """Limits of motions: of both sides, of slowing down, of the snap, and of laws that are given."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from math import inf, sqrt
@@ -521,3 +522,21 @@ def test_accelerations_that_neighbours_share_do_not_jump() -> None:
     assert "jumps at 0 deg" in str(refused(Cycle(harmonic, period="0.25 s", limits=limits)))
     of_snap = Cycle(harmonic, period="0.25 s", limits={"snap": "1e9 m/s^4"})
     assert "segment 1 (Rise): its law jumps" in str(refused(of_snap))
+
+
+def test_the_limit_that_needs_the_most_time_is_told_first() -> None:
+    """With the time that the error asks for, to the digits that it has, the law keeps all its limits."""
+
+    def moved(duration: float) -> Cycle:
+        limits = {"acceleration": "18 m/s^2", "jerk": "1500 m/s^3"}
+        rise = Rise("35 mm", f"{duration!r} s", law="modified sine", limits=limits)
+        return Cycle([rise, Return(law="cycloidal")], period="0.5 s")
+
+    with pytest.raises(
+        InfeasibleProblem, match=r"; also beyond its limit: segment 1 \(Rise\): acceleration, "
+    ) as broken:
+        moved(0.1).solve()
+    longer = re.search(r"takes the jerk .* give it ([\d.]+) times as much time", str(broken.value))
+    assert longer is not None
+    more = float(longer[1]) * (1.0 + 1e-5)
+    assert max(taken.share for taken in moved(0.1 * more).solve().limits_taken) <= 1.0

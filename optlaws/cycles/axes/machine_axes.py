@@ -584,8 +584,10 @@ class Overlap(AxesAnswers, Declared, title="axes that overlap"):
         if self.without_dwells is not None:
             may = 'of dwells that may be shorter give least = "0 s"'
             rows.append(Row("least period without these dwells", self.without_dwells, unit, note=may))
-        status = Row("status", self.status.value, note="with the dwells that bind as given" if self.dwells else "")
-        return Summary([status, *rows, *(Row("bound by", name) for name in self.binding)])
+        as_given = "the dwells that bind stay as long as they are given" if self.dwells else ""
+        rows = [Row("status", self.status.value, note=as_given), *rows]
+        rules = {rule.label for rule in self.axes.solve().rules}
+        return Summary([*rows, *(Row("bound by", name, note="interlock" * (name in rules)) for name in self.binding)])
 
     def report(self) -> Report:
         """What is proven of the overlap, and the report of its axes."""
