@@ -138,3 +138,51 @@ RESIDUALS = {
     ),
     "symmetric pieces": Problem(order=4, minimise="0.2*C + residual(frequency=(12, 14))", basis=Pieces(4, 6, 3)),
 }
+
+TABLE = "table(k, 0:1, 0.3:2, 0.7:1, 1:3)"
+OF_FORMULAS = [
+    *(f"rms({text})" for text in ("sin(3*k)*b + c", f"{TABLE}*sin(k)*b + c", "abs(k - 0.3)*b + c", "c/(1 + k)")),
+    *(f"integral({text})" for text in ("exp(k)*c^2 + b^2", "exp(c/5)", "abs(k - 0.3)*c^2 + b^2", "norm(1, c/20)")),
+    *(
+        f"peak({text})"
+        for text in ("abs(k - 0.3)*b + c", f"{TABLE}*sin(k)*b + c", "max(k, 0.5)*b + c", "norm(b, c, 1)")
+    ),
+    "peak(table(a, 0:1, 0.5:1, 1:3) + c, side=high)",
+    "peak(spline(a, 0:1.25, 0.2:0.27, 0.4:0.01, 0.6:0.01, 0.8:0.27, 1:1.25) + abs(c), side=high)",
+    "rms(norm(b, c))",
+    "integral(max(k, 0.4)*c^2)",
+    "integral(max(c^2, 9*b^2))",
+    "integral(table(c, -9:9, 0:0, 9:4) + exp(b))",
+    "peak(c + 0.2*b)",
+    "peak((1 + k)*c, side=high)",
+    "peak(c + table(k, 0:0, 0.5:1, 1:0)*b, start=0.1)",
+    "rms((1 + k^2)*c + 3*b)",
+    "peak(norm(c, 3*b))",
+    "peak(abs(c) + 2*abs(b))",
+    "integral((c + 2*b)^2, start=0.2, stop=0.9)",
+    "rms(c^2 + b^2)",
+    "value(c^2 + b, at=0.3)",
+    "max(peak(c + 3*b), 2*rms(c), C_plus) + 0.5*integral(b^2)",
+]
+WINDOWS = [
+    (Window("c + 0.2*b", high=4.8, start=0.1, stop=0.6), "C"),
+    (via("c + 3*b - 4*a", 1.0, at=0.3), "C"),
+    (Window("c^2 + 9*b^2", high=33.0), "J"),
+    (Window("abs(c) + abs(b)", high=5.4, start=0.2), "C"),
+    (Window("c + k*b", low=-4.9), "rms_c"),
+]
+FORMULAS = [
+    problem
+    for symmetric in (True, False)
+    for problem in (
+        *(Problem(B=1.9, order=3, basis=Chebyshev(7), minimise=each, symmetric=symmetric) for each in OF_FORMULAS),
+        *(
+            Problem(B=1.8, order=4, basis=DEGREE_9, windows=(each,), minimise=minimise, symmetric=symmetric)
+            for each, minimise in WINDOWS
+        ),
+    )
+]
+BOUNDED_FORMULAS = [
+    Problem(B=1.7, C=at_most(9.0), order=4, symmetric=False, basis=BSplines(4, 5, 4), minimise=each)
+    for each in OF_FORMULAS
+]

@@ -1,5 +1,6 @@
 """Whatever kind of problem optlaws solves, its file is proven, and fast; own constants have a bound by numpy."""
 
+import json
 import time
 from dataclasses import dataclass, replace
 
@@ -15,6 +16,7 @@ from optlaws import (
     InputError,
     MotionLaw,
     Problem,
+    Solution,
     at_least,
     between,
     law_from_z,
@@ -24,8 +26,10 @@ from optlaws.verification import exact_bound, verify
 from tests.internals.synthesis import ConstraintFamily, LawSpace
 from tests.sampling import examples
 from tests.verification.problems import (
+    BOUNDED_FORMULAS,
     CONVEX,
     DEGREE_9,
+    FORMULAS,
     KINDS,
     LOCAL,
     OF_CAMS,
@@ -35,14 +39,20 @@ from tests.verification.problems import (
 )
 from tests.verification.tampering import data_of
 
-EVERY = [*CONVEX, *LOCAL, *PIECES, *KINDS, *ONCE_REFUSED.values(), *OF_CAMS.values(), *RESIDUALS.values()]
+OF_FORMULAS = [*FORMULAS, *BOUNDED_FORMULAS]
+NAMED = [*ONCE_REFUSED.values(), *OF_CAMS.values(), *RESIDUALS.values()]
+EVERY = [*CONVEX, *LOCAL, *PIECES, *KINDS, *NAMED, *OF_FORMULAS]
 
 
-@pytest.mark.sample(4)
+@pytest.mark.sample(5)
 @pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 @pytest.mark.parametrize("problem", EVERY, ids=repr)
-def test_every_kind_is_proven(problem: Problem) -> None:
+def test_every_kind_is_read_again_and_proven(problem: Problem) -> None:
     data = data_of(problem)
+    again = Solution.from_dict(data)
+    assert again.problem == problem
+    assert hash(again.problem) == hash(problem)
+    assert json.loads(json.dumps(again.to_dict())) == data
     verification = verify(data)
     assert [str(claim) for claim in verification.claims if not claim.proven] == []
     assert verification.gap is not None

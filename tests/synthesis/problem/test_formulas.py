@@ -26,11 +26,9 @@ from optlaws import (
     smoothstep,
     synthesize,
     value,
-    via,
 )
 from optlaws.verification import verify
 from tests.internals.synthesis import CurvedFamily, Outcome, failure, model_of, named, solve, space_of
-from tests.sampling import sampled
 from tests.synthesis.judge import Judged, broken
 
 PROBLEM = Problem(B=1.8, order=4, basis=Chebyshev(9))
@@ -49,33 +47,6 @@ def test_a_formula_of_a_built_in_constant_has_its_optimum(text: str, same: str) 
         one, other = (synthesize(replace(PROBLEM, minimise=asked, symmetric=symmetric)) for asked in (text, same))
         assert one.objective == pytest.approx(other.objective, rel=1e-10)
         assert one.status.value == "optimal"
-
-
-CONVEX = (
-    "peak(c + 0.2*b)",
-    "peak((1 + k)*c, side=high)",
-    "peak(c + table(k, 0:0, 0.5:1, 1:0)*b, start=0.1)",
-    "rms((1 + k^2)*c + 3*b)",
-    "peak(norm(c, 3*b))",
-    "peak(abs(c) + 2*abs(b))",
-    "integral(c^2 + (1 + k)*b^2)",
-    "integral((c + 2*b)^2, start=0.2, stop=0.9)",
-    "rms(c^2 + b^2)",
-    "value(c^2 + b, at=0.3)",
-    "max(peak(c + 3*b), 2*rms(c), C_plus) + 0.5*integral(b^2)",
-)
-
-
-@pytest.mark.sample(2)
-@pytest.mark.parametrize("text", sampled(CONVEX))
-def test_convex_ones_are_proven_and_verified(text: str) -> None:
-    bounded = Problem(B=1.7, C=at_most(9.0), order=4, symmetric=False, basis=BSplines(4, 5, 4), minimise=text)
-    for problem in (replace(PROBLEM, minimise=text), bounded):
-        solution = synthesize(problem)
-        assert solution.status.value == "optimal", problem
-        assert solution.objective == pytest.approx(Judged(solution.law).worth(problem.objective), rel=1e-8)
-        assert broken(problem, solution.law) == []
-        assert verify(json.loads(json.dumps(solution.to_dict()))).proven
 
 
 def _last(z: Any) -> float:
@@ -149,27 +120,6 @@ def test_products_are_bounded_where_derivatives_are() -> None:
     assert 4.33 < solution.lower_bound < solution.objective < 4.88
     assert verify(json.loads(json.dumps(solution.to_dict()))).proven
     assert synthesize(replace(problem, minimise="D")).objective == pytest.approx(solution.objective, rel=1e-9)
-
-
-@pytest.mark.sample(6)
-@pytest.mark.parametrize(
-    ("window", "minimise"),
-    [
-        (Window("c + 0.2*b", high=4.8, start=0.1, stop=0.6), "C"),
-        (via("c + 3*b - 4*a", 1.0, at=0.3), "C"),
-        (Window("c^2 + 9*b^2", high=33.0), "J"),
-        (Window("abs(c) + abs(b)", high=5.4, start=0.2), "C"),
-        (Window("c + k*b", low=-4.9), "rms_c"),
-    ],
-)
-def test_windows_of_formulas_are_kept_and_proven(window: Window, minimise: str) -> None:
-    for symmetric in (True, False):
-        problem = replace(PROBLEM, minimise=minimise, windows=(window,), symmetric=symmetric)
-        assert Problem.from_dict(json.loads(json.dumps(problem.to_dict()))) == problem
-        solution = synthesize(problem)
-        assert solution.status.value == "optimal"
-        assert broken(problem, solution.law) == []
-        assert verify(json.loads(json.dumps(solution.to_dict()))).proven
 
 
 def test_a_window_that_cannot_be_kept_is_proven_so() -> None:
