@@ -19,7 +19,6 @@ from optlaws import (
     InputError,
     MotionLaw,
     PiecewiseLaw,
-    PolynomialLaw,
     mirrored_law,
     multiplied_law,
     polydyne,
@@ -371,41 +370,3 @@ def test_a_new_kind_goes_through_a_cam(exponential: Any) -> None:
     segment, u = exponential(2.0, 0.5), np.linspace(0.0, 1.0, 21)
     expected = (1 + 0.01 * 2.0 + 0.0025 * 4.0) * segment.derivative(u, 0.5, 2)
     assert smooth(segment, u, 0.5) == pytest.approx(expected, rel=1e-13)
-
-
-def test_a_polynomial_by_another_name_is_driven_like_one() -> None:
-    @dataclass(frozen=True)
-    class Disguised(Segment, kind="disguised polynomial of the contract"):
-        coefficients: tuple[float, ...]
-
-        def __post_init__(self) -> None:
-            self._check()
-
-        @property
-        def _known(self) -> PolynomialSegment:
-            return PolynomialSegment(self.coefficients)
-
-        def derivative(self, u: Array, length: float, nu: int) -> Array:
-            return self._known.derivative(u, length, nu)
-
-        def candidates(self, length: float, nu: int) -> Array:
-            return self._known.candidates(length, nu)
-
-        def power_candidates(self, length: float) -> Array:
-            return self._known.power_candidates(length)
-
-        def square(self, length: float, nu: int) -> float:
-            return self._known.square(length, nu)
-
-    try:
-        plain = smoothstep(4)
-        assert isinstance(plain, PolynomialLaw)
-        law = PiecewiseLaw([0, 1], [Disguised(plain.acceleration)])
-        cam, known = polydyne(law, frequency=20, damping=0.05), polydyne(plain, frequency=20, damping=0.05)
-        k = np.linspace(0.0, 1.0, 101)
-        assert cam.c(k) == pytest.approx(known.c(k), abs=1e-10)
-        factor = Follower(frequency=20, damping=0.05).response(cam).dynamic_factor(reference=plain)
-        assert factor == pytest.approx(1.0, abs=1e-9)
-        assert MotionLaw.from_dict(law.to_dict()) == law
-    finally:
-        del Segment.kinds[Disguised.kind]
