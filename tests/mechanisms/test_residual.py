@@ -39,24 +39,12 @@ NU = np.linspace(18.0, 22.0, 2001)
 LAWS = [savin("III", 7.2), savin("IV", 11.0), catalogue["modified sine"].law, catalogue["cycloidal"].law]
 
 
-@pytest.mark.sample(2)
-@pytest.mark.parametrize("law", LAWS, ids=["III", "IV", "modified sine", "cycloidal"])
-@pytest.mark.parametrize("damping", [0.0, 0.05, 0.7])
-def test_the_greatest_residual_is_that_of_a_fine_grid_and_of_the_response(law: MotionLaw, damping: float) -> None:
-    constant = residual_vibration(frequency=(18, 22), damping=damping)
-    peak = constant.peak(law)
-    grid = residuals(law.b, NU, damping)
-    assert grid.max() <= peak.value * (1 + 1e-10)
-    assert grid.max() == pytest.approx(peak.value, rel=1e-6)
-    assert Follower(peak.k, damping).response(law).residual_acceleration == pytest.approx(peak.value, rel=1e-9)
-
-
-@given(st.floats(2.0, 60.0), st.floats(0.0, 40.0), st.floats(0.0, 0.9))
-@examples(25)
+@given(st.sampled_from(LAWS), st.floats(2.0, 60.0), st.floats(0.0, 40.0), st.floats(0.0, 0.9))
+@examples(50)
 def test_the_greatest_residuals_of_any_interval_are_those_of_responses(
-    low: float, length: float, damping: float
+    law: MotionLaw, low: float, length: float, damping: float
 ) -> None:
-    law, nu = savin("III", 7.2), np.linspace(low, low + length, 1001)
+    nu = np.linspace(low, low + length, 1001)
     accelerations = residuals(law.b, nu, damping)
     for of, grid in (("acceleration", accelerations), ("displacement", accelerations / nu**2)):
         peak = residual_vibration(frequency=(low, low + length), damping=damping, of=of).peak(law)  # type: ignore[arg-type]
@@ -64,15 +52,6 @@ def test_the_greatest_residuals_of_any_interval_are_those_of_responses(
         assert grid.max() <= peak.value * (1 + 1e-9) + 1e-12
         own = getattr(Follower(peak.k, damping).response(law), f"residual_{of}")
         assert peak.value == pytest.approx(own, rel=1e-9, abs=1e-12)
-
-
-def test_a_law_of_little_residual_displacement_is_proven() -> None:
-    sway = residual_vibration(frequency=(6, 7), of="displacement")
-    solution = synthesize(Problem(order=3, basis=Chebyshev(11), bounds={sway: at_most(0.002)}))
-    assert solution.status.value == "optimal"
-    assert verify(solution.to_dict()).proven
-    assert sway.value(solution.law) == pytest.approx(0.002, rel=1e-7)
-    assert residual_vibration(frequency=6.0).value(solution.law) <= 0.002 * 36 * (1 + 1e-9)
 
 
 @pytest.mark.parametrize("dampings", [(0.0, 0.0), (0.05, 0.05), (0.05, 0.0), (0.02, 0.08)])
@@ -243,14 +222,6 @@ def test_a_weight_that_is_even_is_a_scale_in_however_many_parts() -> None:
         assert solution.objective == pytest.approx(plain.objective, rel=1e-9)
     part = residual_vibration(spectrum=SPECTRUM, frequency=(18.0, 19.0))
     assert part.value(smoothstep(4)) <= residual_vibration(spectrum=SPECTRUM).value(smoothstep(4))
-
-
-def test_the_least_weighed_residual_is_proven() -> None:
-    solution = synthesize(
-        Problem(order=3, basis=Chebyshev(7), minimise=residual_vibration(spectrum=SPECTRUM), B=at_most(2), C=at_most(7))
-    )
-    assert solution.status.value == "optimal"
-    assert "\nproven      optimal: the proven gap" in str(verify(solution.to_dict()))
 
 
 def test_a_spectrum_is_read_from_a_file_and_covered_by_fewer_points(tmp_path: Path) -> None:

@@ -11,6 +11,7 @@ from optlaws import (
     at_most,
     between,
     cam_constant,
+    residual_vibration,
     via,
 )
 
@@ -110,6 +111,10 @@ OF_CAMS = {
         order=4, minimise=cam_constant("C_plus", frequency=15, damping=0.1), symmetric=False, basis=Chebyshev(6)
     ),
     "pieces": Problem(order=4, minimise=cam_constant("C_minus", frequency=20, damping=0.1), basis=Pieces(4, 6, 3)),
+    "velocity alone": Problem(order=5, minimise=cam_constant("B", frequency=12, damping=0.1), basis=Chebyshev(7)),
+    "jerk": Problem(
+        order=5, minimise=cam_constant("J", frequency=12, damping=0.1), symmetric=False, basis=Chebyshev(7)
+    ),
     "sum": Problem(order=5, minimise="0.5*C + 0.1*J_cam(frequency=12, damping=0.05)", basis=Chebyshev(7)),
     "bounded": Problem(order=4, minimise="C", bounds={"C_cam(frequency=10)": at_most(7.0)}, basis=Chebyshev(9)),
     "velocity": Problem(order=4, minimise="C", bounds={"B_cam(frequency=9)": at_most(1.7)}, basis=Chebyshev(9)),
@@ -135,6 +140,18 @@ RESIDUALS = {
         symmetric=False,
         bounds={"residual(frequency=(18, 22), damping=0.02, design=20)": at_most(0.5)},
         basis=Pieces(4, 6, 3),
+    ),
+    "displacement": Problem(
+        order=3,
+        bounds={residual_vibration(frequency=(6, 7), of="displacement"): at_most(0.002)},
+        basis=Chebyshev(11),
+    ),
+    "weighed": Problem(
+        order=3,
+        minimise=residual_vibration(spectrum=[(16, 0.2), (18, 1.0), (19, 0.6), (22, 1.5), (27, 0.1)]),
+        B=at_most(2),
+        C=at_most(7),
+        basis=Chebyshev(7),
     ),
     "symmetric pieces": Problem(order=4, minimise="0.2*C + residual(frequency=(12, 14))", basis=Pieces(4, 6, 3)),
 }
@@ -163,6 +180,19 @@ OF_FORMULAS = [
     "rms(c^2 + b^2)",
     "value(c^2 + b, at=0.3)",
     "max(peak(c + 3*b), 2*rms(c), C_plus) + 0.5*integral(b^2)",
+    *(f"integral({text})" for text in ("abs(j)", "(1 + k)*abs(c)", "abs(c - 2*b)", "abs(j + 3*c) + max(c, -2*c)")),
+]
+#: which bound their laws without a bound of the velocity
+ALONE = [
+    Problem(order=3, basis=Chebyshev(13), symmetric=False, minimise=each)
+    for each in (
+        "peak(0.0753982237*c + max(0.591358617*c, 0.427256601*c), side=high)",
+        "peak(c^2 + c, side=high)",
+        "peak(max(c, 2*b), side=high)",
+        "peak(min(-abs(j), -2*abs(c)), side=low)",
+        "peak(exp(c/10) - b, side=high)",
+        "integral(max(c, 0) + 0.1*abs(j))",
+    )
 ]
 WINDOWS = [
     (Window("c + 0.2*b", high=4.8, start=0.1, stop=0.6), "C"),

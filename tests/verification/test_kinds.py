@@ -26,6 +26,7 @@ from optlaws.verification import exact_bound, verify
 from tests.internals.synthesis import ConstraintFamily, LawSpace
 from tests.sampling import examples
 from tests.verification.problems import (
+    ALONE,
     BOUNDED_FORMULAS,
     CONVEX,
     DEGREE_9,
@@ -39,7 +40,7 @@ from tests.verification.problems import (
 )
 from tests.verification.tampering import data_of
 
-OF_FORMULAS = [*FORMULAS, *BOUNDED_FORMULAS]
+OF_FORMULAS = [*FORMULAS, *BOUNDED_FORMULAS, *ALONE]
 NAMED = [*ONCE_REFUSED.values(), *OF_CAMS.values(), *RESIDUALS.values()]
 EVERY = [*CONVEX, *LOCAL, *PIECES, *KINDS, *NAMED, *OF_FORMULAS]
 

@@ -114,7 +114,7 @@ def test_what_is_overstated_is_refused(minimise: str) -> None:
     assert overstated(tampered, true) == []
 
 
-@pytest.mark.parametrize("minimise", ["rms(max(c, 0))", "integral(max(c + 3*a - 2, 0)^2)"])
+@pytest.mark.parametrize("minimise", ["rms(max(c, 0))", "rms(abs(c) + abs(b))", "integral(max(c + 3*a - 2, 0)^2)"])
 def test_a_bound_without_exact_rows_is_recomputed_in_doubles(minimise: str) -> None:
     problem = Problem(B=1.8, order=4, basis=Chebyshev(5), C=at_most(6.0), minimise=minimise)
     data = synthesize(problem).to_dict()
