@@ -15,6 +15,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from typing import NoReturn
 
@@ -185,6 +186,11 @@ def read(text: str, names: Collection[str] | None = None) -> Formula:
         raise InputError(f"a formula must be a text, got {shortened(text)}")
     if len(text) > LONGEST:
         raise InputError(f"a formula may have {LONGEST} characters, got {len(text)}")
+    return _whole(text, None if names is None else tuple(names))
+
+
+@lru_cache(maxsize=64)
+def _whole(text: str, names: tuple[str, ...] | None) -> Formula:
     scanner = Scanner(text)
     formula = parse(scanner, names)
     if scanner.token.kind != "end":
