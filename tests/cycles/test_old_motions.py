@@ -10,6 +10,7 @@ import pytest
 from scipy.interpolate import BPoly
 
 from optlaws import InputError, catalogue, read_cycle_table, smoothstep, split_table
+from tests.cycles.simulated_cams import simulated_cam
 from tests.internals.cycles import OldTableReport, least_peak
 
 QUINTIC = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
@@ -68,6 +69,15 @@ def test_specks_of_dust_are_left_out_and_listed(seed: int) -> None:
 
 
 @pytest.mark.sample(2)
+@pytest.mark.parametrize("seed", [1110, 1119])
+def test_two_specks_of_one_size_beside_each_other_are_both_left_out(seed: int) -> None:
+    """In differences the rows beside these stand out more than they do."""
+    cam = simulated_cam(seed)
+    table = split_table(cam.places, cam.heights, digit=cam.digit)
+    assert table.outliers == cam.specks
+    assert table.peaks[1].holds(cam.acceleration)
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_a_move_that_begins_where_its_noisy_table_does(seed: int) -> None:
     """Its first rows, which noise hides, look like a rest; that of the table's end goes on to its seam."""

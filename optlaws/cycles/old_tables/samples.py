@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -366,20 +367,54 @@ def _far_points(places: Array, heights: Array, noise: float) -> Mask:
         if outside[worst] <= _SUSPECT * least:
             break
         seen[worst] = True
-        off = off_both_sides(x, y - sizes, worst, float(np.sign(filtered[worst])), noise)
-        if off > _BOTH * outside[worst]:
-            taken.append(worst)
-            # what it hid beside it is seen now
+        likely = _nearest_rows(weights, differences - _differences(weights, sizes), worst)
+        rows = next((rows for rows in likely if _are_off(x, y - sizes, rows, noise)), None)
+        if rows is not None:
+            taken += [row for row in rows if row not in taken]
+            # what they hid beside them is seen now
             seen[max(worst - 2 * order, 0) : worst + 2 * order + 1] = False
             seen[[beside, beside + count - 1, *taken]] = True
-            columns = np.zeros((len(differences), len(taken)))
-            for column, row in enumerate(taken):
-                windows = np.arange(max(row - order, 0), min(row + 1, len(differences)))
-                columns[windows, column] = weights[windows, row - windows]
-            sizes[taken] = np.linalg.lstsq(columns, differences, rcond=None)[0]
+            sizes[taken] = np.linalg.lstsq(_spread_columns(weights, taken), differences, rcond=None)[0]
     far = np.zeros(count, dtype=bool)
     far[[(row - beside) % (count - 1) for row in taken]] = True
     return far
+
+
+def _nearest_rows(weights: Array, differences: Array, worst: int) -> list[dict[int, float]]:
+    """The row that stands out most in differences, or two beside it, with their sizes, what explains these best first.
+
+    In high differences two points that are off by about the same stand out less than the rows beside them.
+    """
+    order = weights.shape[1] - 1
+    near = slice(max(worst - 2 * order, 0), worst + order + 1)
+    tried = []
+    for rows in ([worst], [worst + 1, worst + 2], [worst - 2, worst - 1]):
+        if order <= rows[0] and rows[-1] <= len(differences) - 1:
+            columns = _spread_columns(weights, rows)[near]
+            sizes = np.linalg.lstsq(columns, differences[near], rcond=None)[0]
+            left = differences[near] - columns @ sizes
+            tried.append((float(left @ left) * len(rows) ** 2, dict(zip(rows, sizes.tolist(), strict=True))))
+    return [rows for _, rows in sorted(tried, key=lambda each: each[0])]
+
+
+def _are_off(x: Array, y: Array, sizes: Mapping[int, float], noise: float) -> bool:
+    """Whether each of few rows is off where both of its sides go on, by enough of its size, without the others'."""
+    for row, size in sizes.items():
+        others = y.copy()
+        others[[other for other in sizes if other != row]] -= [sizes[other] for other in sizes if other != row]
+        if off_both_sides(x, others, row, float(np.sign(size)), noise) <= _BOTH * abs(size):
+            return False
+    return True
+
+
+def _spread_columns(weights: Array, rows: Sequence[int]) -> Array:
+    """What a unit at each row is in the differences, a column for each."""
+    order = weights.shape[1] - 1
+    columns = np.zeros((len(weights), len(rows)))
+    for column, row in enumerate(rows):
+        windows = np.arange(max(row - order, 0), min(row + 1, len(weights)))
+        columns[windows, column] = weights[windows, row - windows]
+    return columns
 
 
 def off_both_sides(places: Array, heights: Array, row: int, sign: float, noise: float) -> float:
