@@ -527,7 +527,8 @@ class Region:
         if int(inside.sum()) <= nu + 1:
             return 0.0
         off, noise = self.y[inside] - fit.values(self.x[inside]), self.noise[inside]
-        noise = noise * max(float(np.median(np.abs(off) / noise)) / MEDIAN, 1.0)
+        if fit.variance <= UNRESOLVED:
+            noise = noise * max(float(np.median(np.abs(off) / noise)) / MEDIAN, 1.0)
         return _MISSING * least_peak(self.x[inside], off, noise, self.digit, nu)
 
     def _interval(self, nu: int, low: float, high: float, most: float, variance: float = 1.0) -> PeakInterval:
