@@ -128,19 +128,6 @@ def test_a_bound_of_b_that_binds_is_kept_by_its_whole_velocity(kind: dict[str, A
     assert verify(solution.to_dict()).proven
 
 
-def test_the_mean_of_an_unsymmetric_law_and_its_mirror_image_is_a_symmetric_one_that_is_no_better() -> None:
-    for B in (at_most(1.6), at_most(1.75), between(1.5, 1.6), 1.6):
-        for minimise in ("C", "J", "rms_c"):
-            problem = Problem(B=B, order=4, minimise=minimise)
-            solution, other = synthesize(problem), synthesize(replace(problem, symmetric=False))
-            assert solution.lower_bound <= other.objective
-            assert other.lower_bound <= solution.objective
-            assert other.objective == pytest.approx(solution.objective, rel=1e-9)
-            # and the mean keeps what is asked
-            speed = (other.law.b(K) + other.law.b(1.0 - K)) / 2.0
-            assert np.abs(speed).max() <= solution.constants.B.value * (1.0 + 1e-6)
-
-
 RANGES = [None, at_most(1.7), at_least(1.75), between(1.3, 1.8), 1.65]
 
 
