@@ -398,14 +398,10 @@ def proof_rows(plan: Solved) -> list[Row]:
     none = Row(PROVEN_BOUND, "none is known", note=_why_no_bound(plan))
     note = f"gap {100.0 * gap:.2g} %" if gap else ""
     rows.append(none if bound is None else Row(plan.lower_bound_name, bound, unit, note=note))
-    remarks = [*plan.remarks, *([_RICHER] if gap > _WIDE_GAP and _is_of_usual_degree(plan) else [])]
-    return [*rows, Row("search space", plan.search_space), *(Row("remark", remark) for remark in remarks)]
-
-
-def _is_of_usual_degree(plan: Solved) -> bool:
-    """Whether a law is a polynomial of the degree that a cycle has unless another is given."""
     bases = (solution.problem.basis for solution in plan.solutions)
-    return any(isinstance(basis, PolynomialBasis) and basis.degree == USUAL_DEGREE for basis in bases)
+    usual = any(isinstance(basis, PolynomialBasis) and basis.degree == USUAL_DEGREE for basis in bases)
+    remarks = [*plan.remarks, *([_RICHER] if gap > _WIDE_GAP and usual else [])]
+    return [*rows, Row("search space", plan.search_space), *(Row("remark", remark) for remark in remarks)]
 
 
 def _why_no_bound(plan: Solved) -> str:

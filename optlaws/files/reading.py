@@ -42,11 +42,15 @@ def text(file: Path, largest: int = LARGEST_JSON, *, legacy: bool = False) -> st
     >>> text(Path("/dev/null"))
     Traceback (most recent call last):
     optlaws.errors.InputError: cannot read /dev/null: it is not a regular file
+    >>> text(Path("/dev"))
+    Traceback (most recent call last):
+    optlaws.errors.InputError: cannot read /dev: it is a folder: name a file in it
     """
     name = _named(file)
     try:
         if not stat.S_ISREG(file.stat().st_mode):
-            raise InputError(f"cannot read {name}: it is not a regular file")
+            why = "a folder: name a file in it" if file.is_dir() else "not a regular file"
+            raise InputError(f"cannot read {name}: it is {why}")
         with file.open("rb") as stream:
             # a file may grow while it is read
             large = os.fstat(stream.fileno()).st_size > largest

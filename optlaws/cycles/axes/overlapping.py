@@ -329,10 +329,6 @@ class Requirement:
             self._rows[place] = rows[~np.isnan(rows[:, 0])]
         return self._rows[place]
 
-    def broken_by(self, option: Option, unknowns: Array) -> float:
-        """The time by which an option is violated at the cuts."""
-        return float(-(self.known_rows(option) @ unknowns).min(initial=0.0))
-
     def room(self, option: Option, unknowns: Array, shares: Array) -> Array:
         """The time that an option leaves after shares of the segment."""
         values = self.rows(option, shares) @ unknowns
@@ -461,7 +457,8 @@ class Overlapping:
             broken, worst, further = _BROKEN_INSTANT * float(unknowns[-2]), None, dict(choices)
             for i, requirement in enumerate(self.requirements):
                 if i not in choices:
-                    off = [requirement.broken_by(option, unknowns) for option in requirement.options]
+                    rows = [requirement.known_rows(option) for option in requirement.options]
+                    off = [float(-(row @ unknowns).min(initial=0.0)) for row in rows]
                     further[i] = requirement.options[int(np.argmin(off))]
                     broken, worst = (min(off), i) if min(off) > broken else (broken, worst)
             if worst is None:
