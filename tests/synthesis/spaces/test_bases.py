@@ -105,19 +105,6 @@ def test_a_sweep_gives_what_each_problem_gives_alone(order: int, degree: int, mo
             check_solution(warm, of_array=True)
 
 
-def test_a_start_of_another_shape_is_left_aside() -> None:
-    problem = Problem(B=1.859, order=4, basis=Chebyshev(9))
-    start = synthesize(Problem(B=1.859, order=3, basis=Chebyshev(5)))
-    again, alone = synthesize(problem, start=start), synthesize(problem)
-    assert (again.objective, again.z) == (alone.objective, alone.z)
-
-
-def test_a_start_in_the_other_basis_serves_as_well() -> None:
-    problem = Problem(B=1.859, order=4, basis=Chebyshev(9))
-    start = synthesize(replace(problem, B=1.85, basis=Powers(9)))
-    assert synthesize(problem, start=start).objective == pytest.approx(synthesize(problem).objective, rel=1e-11)
-
-
 # --- symmetry and degree ---
 
 
