@@ -91,7 +91,7 @@ class LoaderPeak(Functional):
         shared, size = _energy(space, len(slack)), len(slack)
         signs = (1.0, -1.0)
         if self.of == "B":
-            top = LinearFamily(self.name, slack, table=PieceSeries.whole(space.middle[None]).widened(size))
+            top = LinearFamily(self.name, slack, table=PieceSeries.whole(space.row(1, 0.5)[None]).widened(size))
             return (EnergyFamily(self.name, slack, bound, domain=(1.0, 1.0), factors=(top,), energy=shared),)
         if self.of == "C":
             factors = (_velocity(space, size), _fall(shared.below))
@@ -128,7 +128,7 @@ def _energy(space: PolynomialSpace, size: int) -> Energy:
     chord, above = space.below(np.zeros(size)), _velocity(space, size).series.copy()
     if not isinstance(chord, LinearFamily) or not chord.even:
         raise InputError("a loader needs laws whose peak velocity is in the middle")
-    above[0] += widened(space.middle, size)
+    above[0] += widened(space.row(1, 0.5), size)
     return Energy(_even("below", -chord.series), _even("above", above))
 
 

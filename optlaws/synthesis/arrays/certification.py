@@ -8,16 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import from_values, nodes
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds
 from optlaws.synthesis.arrays.newton_steps import States, Structure, batch_families, locally_optimal, product, with_one
 from optlaws.synthesis.arrays.programs import Numbers, Path
-from optlaws.synthesis.families.family import BatchFamily, LinearFamily, NonlinearFamily
-from optlaws.synthesis.families.peaks import peaks
-from optlaws.synthesis.families.piece_series import EvenGegenbauer
-from optlaws.synthesis.program.writer import Model
+from optlaws.synthesis.families.family import BatchFamily
 
 _CERTIFIED_EXCESS = 1e-11  # of a right side, or 1: by so much a row of a certified law may be broken
 _SHARP_GAP = 5e-12  # of an objective: a bound that leaves more is computed more sharply, at a law solved to the end
@@ -63,7 +58,7 @@ class Certification:
 
 def certification_of(path: Path, structure: Structure, numbers: Numbers, states: States) -> Certification:
     """Certification of states of one structure; NaN and infinities are no laws."""
-    program, checks = path.model.program, row_checks_of(path.model)
+    program, families = path.model.program, batch_families(path.model)
     value, slope, _ = structure.jets(states.x, states.u)
     value[:, :, :-1] -= structure.slack
     point = with_one(states.x)
@@ -77,91 +72,23 @@ def certification_of(path: Path, structure: Structure, numbers: Numbers, states:
     worst = np.maximum(broken.max(axis=1, initial=0.0), off.max(axis=1, initial=0.0))
     greatest = np.abs(states.weights).max(axis=1, initial=0.0)
     pull = -(states.weights / np.where(greatest == 0.0, 1.0, greatest)[:, None]).min(axis=1, initial=np.inf)
+    # whether multipliers prove bounds of the objective
+    proving = all(family.proving for family in families)
     return Certification(
-        best=np.ones(len(states), dtype=np.bool_) if checks.proving else locally_optimal(structure, states),
+        best=np.ones(len(states), dtype=np.bool_) if proving else locally_optimal(structure, states),
         objective=path.model.unit * (states.x * numbers.cost).sum(axis=1),
         bound=lower_bounds(path, structure, numbers, states, value),
-        excess=np.maximum(worst, checks.excess(point, room)),
+        excess=np.maximum(worst, _excess(families, point, room)),
         pull=np.where(np.isfinite(pull), pull, 0.0),
         affine=not program.curved,
         scale=path.model.unit,
     )
 
 
-@dataclass(frozen=True, eq=False)
-class RowChecks:
-    """Checks of the rows of families for any laws."""
-
-    families: Sequence[BatchFamily]
-
-    @kept_property
-    def proving(self) -> bool:
-        """Whether multipliers prove bounds of the objective in this program."""
-        return all(family.proving for family in self.families)
-
-    @kept_property
-    def _series(self) -> dict[int, Array]:
-        """The affine families, each as series over its domain."""
-        return {i: _over_domain(family) for i, family in enumerate(self.families) if isinstance(family, LinearFamily)}
-
-    def excess(self, point: Array, room: Array) -> Array:
-        """The greatest violation of the rows of any family by each law, relative to the right side or 1."""
-        shortfalls = np.zeros(len(point))
-        for i, family in enumerate(self.families):
-            if isinstance(family, NonlinearFamily):
-                greatest = family.greatest(point)
-            else:
-                greatest = _greatest(point @ self._series[i].T, family.signs)
-            over = np.maximum(greatest - room[:, i], 0.0) / np.maximum(1.0, np.abs(room[:, i]))
-            shortfalls = np.maximum(shortfalls, over)
-        return shortfalls
-
-
-def _greatest(series: Array, signs: tuple[float, ...]) -> Array:
-    """The greatest of series, with the signs that count."""
-    if len(signs) > 1:
-        return peaks(series)
-    size = np.abs(series).sum(axis=1)
-    raised = signs[0] * series
-    raised[:, 0] += size
-    return np.asarray(peaks(raised) - size)
-
-
-def _over_domain(family: LinearFamily) -> Array:
-    """Chebyshev series over a family's domain of its columns, or of what is above a bound where these are.
-
-    Divided by a root that vanishes at its end f is a polynomial of that root; and where f is divided by powers that
-    vanish there, its values are so great that the undivided ones say more.
-    """
-    low, high = family.domain
-    count, weight, table = family.table.terms, np.ones(1), family.table
-    if low == high:
-        return np.asarray(family.columns(np.array([low]))[0])
-    if family.root:
-        count *= 2
-        near, far = np.sqrt(1.0 - high), np.sqrt(1.0 - low)
-        u = 1.0 - (near + (far - near) * (nodes(count) + 1.0) / 2.0) ** 2
-    else:
-        power = round(table.index - 0.5) if isinstance(table, EvenGegenbauer) else 0
-        count += power
-        u = low + (high - low) * (nodes(count) + 1.0) / 2.0
-        weight = (((1.0 - u) / 2.0) ** power)[:, None]
-    return np.asarray(from_values(family.columns(u)[0] * weight))
-
-
-def row_checks_of(model: Model) -> RowChecks:
-    """The row checks of a program, cached for programs with the same rows."""
-    families = batch_families(model)
-    key = tuple(
-        (id(family.table), family.domain, family.signs, family.root) if isinstance(family, LinearFamily) else family
-        for family in families
-    )
-    if key not in _CHECKS:
-        if len(_CHECKS) >= _MOST:
-            _CHECKS.clear()
-        _CHECKS[key] = RowChecks(families)
-    return _CHECKS[key]
-
-
-_CHECKS: dict[tuple[object, ...], RowChecks] = {}
-_MOST = 64
+def _excess(families: Sequence[BatchFamily], point: Array, room: Array) -> Array:
+    """The greatest violation of the rows of any family by each law, relative to the right side or 1."""
+    shortfalls = np.zeros(len(point))
+    for i, family in enumerate(families):
+        over = np.maximum(family.greatest(point) - room[:, i], 0.0) / np.maximum(1.0, np.abs(room[:, i]))
+        shortfalls = np.maximum(shortfalls, over)
+    return shortfalls

@@ -16,11 +16,11 @@ from optlaws.numbers import Array
 from optlaws.synthesis.arrays.continuation import laws_along
 from optlaws.synthesis.arrays.newton_steps import with_one
 from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
-from optlaws.synthesis.families.peaks import by_pieces, power_peaks
+from optlaws.synthesis.families.family import ProductFamily
+from optlaws.synthesis.families.peaks import by_pieces
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import relaxed
-from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 from optlaws.tolerances import AGREEMENT
 
 _TANGENT_SETTLED = 1e-11  # of a bound: what its certificate may lose, whose tangent is settled to a millionth
@@ -108,14 +108,9 @@ def _weights(path: Path, t: Array) -> Array:
 
 def _powers(path: Path, laws: SolvedBatch) -> Array:
     """The peak power of each law, recomputed over the whole interval."""
-    space = path.model.space
-    if not isinstance(space, PolynomialSpace):
-        raise TypeError(f"laws of {type(space).__name__} are not solved in arrays")
-    series = [space.series(nu).T for nu in (1, 2)]
+    [rows] = [family for family in path.model.program.families if isinstance(family, ProductFamily)]
     powers = np.full(len(laws.x), np.nan)
-    powers[laws.solved] = by_pieces(
-        lambda x: power_peaks(*(with_one(x) @ columns for columns in series)), laws.x[laws.solved, : space.terms]
-    )
+    powers[laws.solved] = rows.unit * by_pieces(lambda x: rows.greatest(with_one(x)), laws.x[laws.solved])
     return powers
 
 

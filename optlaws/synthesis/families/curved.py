@@ -24,7 +24,7 @@ from optlaws.numerics.roots import sign_changes
 from optlaws.synthesis.families.cone import SumOfSquares, sum_of_squares
 from optlaws.synthesis.families.family import LinearFamily, NonlinearFamily, RowJet, WholeLawFamily, last_result
 from optlaws.synthesis.families.formula_slopes import FactorTables, Slopes
-from optlaws.synthesis.families.peaks import peaks
+from optlaws.synthesis.families.peaks import greatest
 from optlaws.tolerances import LEAST_ENERGY, ROUNDOFF
 
 _FORMULA_RESOLVED = 1e-13  # of the greatest value: what the last coefficients of a formula along a law leave
@@ -247,12 +247,7 @@ class CurvedFamily(FormulaFamily):
         series = self._series(formula, point)
         if series is None:
             return np.full(len(point), np.inf)
-        size = peaks(series)
-        if len(self.signs) == 2:
-            return size
-        signed = self.signs[0] * series
-        signed[:, 0] += size
-        return np.asarray(peaks(signed) - size)
+        return greatest(series, self.signs)
 
     def _series(self, formula: Formula, point: Array) -> Array | None:
         """The series of a formula along each law; None where a limited number of points cannot resolve it."""

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import nodes, product
-from optlaws.synthesis.families.peaks import peaks, products
-from optlaws.synthesis.families.piece_series import PieceSeries
+from optlaws.numerics.chebyshev import from_values, nodes, product
+from optlaws.synthesis.families.peaks import greatest, power_peaks
+from optlaws.synthesis.families.piece_series import EvenGegenbauer, PieceSeries
 from optlaws.tolerances import AT_END, BESIDE_BREAK, ROW_ROUNDING
 
 _END_OF_U = 1e-9  # of u: a place so near to the end is the end
@@ -153,6 +153,19 @@ class BatchFamily(ConstraintFamily):
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:
         """Rounding bounds of each entry of the sum of weights times planes, (laws, variables + 1)."""
 
+    @abstractmethod
+    def greatest(self, point: Array) -> Array:
+        """The greatest of f, with the signs that count, in each law over the whole domain."""
+
+    def jet(self, x: Array, u: Array, s: Array) -> RowJet:
+        point = np.append(x, 1.0)
+        planes, slopes, bend = self.planes(u[None], point[None])
+        signs = s[:, None]
+        rows, turned = signs * planes[0], signs * slopes[0]
+        return RowJet(
+            rows @ point - self.right_side(x), turned @ point, s * bend[0], rows[:, :-1] - self.slack, turned[:, :-1]
+        )
+
 
 def last_result(method: Callable[..., Result]) -> Callable[..., Result]:
     """A method of arrays that remembers its last result: slopes and second derivatives of one place come together."""
@@ -176,19 +189,6 @@ class NonlinearFamily(BatchFamily):
     @abstractmethod
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:
         """Second derivatives by the variables of the sum of weights times f."""
-
-    @abstractmethod
-    def greatest(self, point: Array) -> Array:
-        """The greatest of f, with the signs that count, in each law over the whole domain."""
-
-    def jet(self, x: Array, u: Array, s: Array) -> RowJet:
-        point = np.append(x, 1.0)
-        planes, slopes, bend = self.planes(u[None], point[None])
-        signs = s[:, None]
-        rows, turned = signs * planes[0], signs * slopes[0]
-        return RowJet(
-            rows @ point - self.right_side(x), turned @ point, s * bend[0], rows[:, :-1] - self.slack, turned[:, :-1]
-        )
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:
         return np.asarray(self.hessians(u[None], np.append(x, 1.0)[None], weights[None])[0])
@@ -289,15 +289,9 @@ class LinearFamily(SeriesFamily):
         columns = self.columns(u)[0] * s[:, None]
         return columns[:, :-1] - self.slack, self.bound - columns[:, -1]
 
-    def jet(self, x: Array, u: Array, s: Array) -> RowJet:
-        columns = self.columns(u) * s[:, None]
-        columns[0, :, :-1] -= self.slack
-        value, slope, curvature = columns @ np.append(x, 1.0)
-        return RowJet(value - self.bound, slope, curvature, columns[0, :, :-1], columns[1, :, :-1])
-
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """The rows themselves, whatever the law."""
-        if not self.root and type(self.table) is PieceSeries:
+        if self.continuable and not self.root and type(self.table) is PieceSeries:
             return self.table.planes(u, point)
         columns = self.columns(u.reshape(-1)).reshape(3, *u.shape, -1)
         return columns[0], columns[1], np.einsum("mpi,mi->mp", columns[2], point)
@@ -314,6 +308,32 @@ class LinearFamily(SeriesFamily):
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - the same everywhere
         """Rounding bounds of rows at any place."""
         return np.asarray(weights.sum(axis=1)[:, None] * self.rounding)
+
+    @kept_property
+    def _over_domain(self) -> Array:
+        """Chebyshev series over the domain of f's columns, or of what is above a bound where these are.
+
+        Divided by a root that vanishes at its end f is a polynomial of that root; and where f is divided by powers that
+        vanish there, its values are so great that the undivided ones say more.
+        """
+        low, high = self.domain
+        count, weight, table = self.table.terms, np.ones(1), self.table
+        if low == high:
+            return np.asarray(self.columns(np.array([low]))[0])
+        if self.root:
+            count *= 2
+            near, far = np.sqrt(1.0 - high), np.sqrt(1.0 - low)
+            u = 1.0 - (near + (far - near) * (nodes(count) + 1.0) / 2.0) ** 2
+        else:
+            power = round(table.index - 0.5) if isinstance(table, EvenGegenbauer) else 0
+            count += power
+            u = low + (high - low) * (nodes(count) + 1.0) / 2.0
+            weight = (((1.0 - u) / 2.0) ** power)[:, None]
+        return np.asarray(from_values(self.columns(u)[0] * weight))
+
+    def greatest(self, point: Array) -> Array:
+        """The greatest of f in each law, where it has one piece."""
+        return greatest(point @ self._over_domain.T, self.signs)
 
     def value(self, x: Array, u: Array) -> Array:
         point = np.append(x, 1.0)
@@ -394,7 +414,7 @@ class ProductFamily(NonlinearFamily):
 
     def greatest(self, point: Array) -> Array:
         """The greatest magnitude of f in each law over the whole interval."""
-        return peaks(products(*(point @ factor.series.T for factor in (self.first, self.second))))
+        return power_peaks(*(point @ factor.series.T for factor in (self.first, self.second)))
 
     def value(self, x: Array, u: Array) -> Array:
         """G h at the points u, each evaluated by itself."""

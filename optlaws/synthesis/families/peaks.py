@@ -34,6 +34,20 @@ def peaks(series: Array) -> Array:
     return by_pieces(_peaks, series)
 
 
+def greatest(series: Array, signs: tuple[float, ...]) -> Array:
+    """The greatest over [-1, 1] of each of many Chebyshev series with the signs that count, one or both.
+
+    >>> greatest(np.array([[-3.0, 0.0, 1.0]]), (1.0,)).tolist()
+    [-2.0]
+    """
+    if len(signs) > 1:
+        return peaks(series)
+    size = np.abs(series).sum(axis=1)
+    raised = signs[0] * series
+    raised[:, 0] += size
+    return np.asarray(peaks(raised) - size)
+
+
 def power_peaks(velocity: Array, acceleration: Array) -> Array:
     """Greatest magnitude of the product of two series, for each of many laws."""
     return by_pieces(lambda b, c: _peaks(products(b, c)), velocity, acceleration)

@@ -130,7 +130,7 @@ class PieceSeries:
 
         The places are rows of u, (laws, places), and the laws those of `point`.
         """
-        polynomials = _polynomials(u.reshape(-1), self.terms)
+        polynomials = _polynomials(self.place(u.reshape(-1))[1], self.terms)
         (first, value), (second, slope), (third, bend) = self._parts
         columns = (
             (polynomials[used].T @ series).reshape(*u.shape, -1) for used, series in ((first, value), (second, slope))
@@ -226,11 +226,11 @@ class EvenGegenbauer(PieceSeries):
 
 
 def _polynomials(u: Array, count: int) -> Array:
-    """Chebyshev polynomials at many places, shape (count, places)."""
+    """Chebyshev polynomials at many places of [-1, 1], shape (count, places)."""
     if u.size * count < _SMALL:
-        return np.asarray(np.cos(np.arange(count)[:, None] * np.arccos(np.minimum(np.maximum(u, -1.0), 1.0))))
+        return np.asarray(np.cos(np.arange(count)[:, None] * np.arccos(u)))
     polynomials = np.empty((max(count, 2), len(u)))
-    polynomials[0], polynomials[1] = 1.0, np.clip(u, -1.0, 1.0)
+    polynomials[0], polynomials[1] = 1.0, u
     twice = 2.0 * polynomials[1]
     for n in range(2, count):
         np.multiply(twice, polynomials[n - 1], out=polynomials[n])

@@ -41,7 +41,7 @@ class PolynomialSpace(LawSpace):
     --------
     >>> from optlaws import Chebyshev
     >>> space = PolynomialSpace(BoundaryConditions.rest(4), Chebyshev(3), symmetric=True)
-    >>> space.terms, round(float(space.middle[-1]), 12)
+    >>> space.terms, round(float(space.row(1, 0.5)[-1]), 12)
     (2, 2.1875)
     """
 
@@ -105,14 +105,8 @@ class PolynomialSpace(LawSpace):
         # one law after the other: in a product of matrices the rounding of one would depend on the others
         series = np.stack([columns[:, :-1] @ row for row in coordinates]) + columns[:, -1]
         series[:, 1::2] *= -1.0
-        return series, coordinates @ self._start[:-1] + self._start[-1]
-
-    @kept_property
-    def _start(self) -> Array:
-        """b(0): free only where the order is 1."""
-        if self.order == 1:
-            return np.asarray(self.series(1).sum(axis=0))
-        return np.append(np.zeros(self.terms), float(self.boundary.start[1]))
+        start = self.row(1, 0.0)
+        return series, coordinates @ start[:-1] + start[-1]
 
     def z_series(self, coordinates: Array) -> Array:
         series = from_values((self._shapes[3] * self.scale[:, None]).T)[: self.degree + 1]
@@ -129,11 +123,6 @@ class PolynomialSpace(LawSpace):
         table = PieceSeries.whole(self.series(1)[::2]).widened(len(slack))
         return LinearFamily(RowName.VELOCITY, slack, bound, (-1.0,), table=table, even=True)
 
-    @kept_property
-    def middle(self) -> Array:
-        """b(1/2) as a row: free functions, then the base law."""
-        return self.row(1, 0.5)
-
     def below(self, slack: Array, peak: float = 0.5) -> ConstraintFamily:
         """Rows b <= b(peak) of laws with c(peak) = 0, divided by (2k - 2 peak)²: else they were ill posed."""
         if not self.symmetric:
@@ -145,18 +134,12 @@ class PolynomialSpace(LawSpace):
         """Rows b >= 0, from rest to rest as b / (k(1-k))^(l-1) >= 0 (in units of the base law's)."""
         if not self.at_rest:
             return super().forward(slack)
-        scale = np.append(self._ratio_scale, 1.0)
+        scale = np.append(self.scale / float(self.base.b(0.5)), 1.0)
         columns = gegenbauer(self.order - 0.5, int(self.index[-1]), self._u)[np.append(self.index, 0)] * scale[:, None]
         table = PieceSeries.whole(-from_values(columns.T)).widened(len(slack))
         if self.symmetric:
             table = EvenGegenbauer(table.breaks, table.series[:, ::2], self.order - 0.5, -scale)
         return LinearFamily(RowName.RATIO, slack, table=table, even=self.symmetric)
-
-    @kept_property
-    def _ratio_scale(self) -> Array:
-        """The scale of the free functions in units of b / (k(1-k))^(l-1) of the base law S_l."""
-        power = 4.0 ** (self.order - 1)
-        return self.scale * power / (power * float(self.base.b(0.5)))
 
 
 def _chord(even: Array) -> Array:
