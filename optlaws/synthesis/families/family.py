@@ -289,6 +289,13 @@ class LinearFamily(SeriesFamily):
         columns = self.columns(u)[0] * s[:, None]
         return columns[:, :-1] - self.slack, self.bound - columns[:, -1]
 
+    def jet(self, x: Array, u: Array, s: Array) -> RowJet:
+        """Residuals with their derivatives; of one law quicker than a batch of one."""
+        columns = self.columns(u) * s[:, None]
+        columns[0, :, :-1] -= self.slack
+        value, slope, curvature = columns @ np.append(x, 1.0)
+        return RowJet(value - self.bound, slope, curvature, columns[0, :, :-1], columns[1, :, :-1])
+
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """The rows themselves, whatever the law."""
         if self.continuable and not self.root and type(self.table) is PieceSeries:

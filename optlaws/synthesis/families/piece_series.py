@@ -221,8 +221,11 @@ class EvenGegenbauer(PieceSeries):
 
     def jets(self, u: Array) -> Array:
         """Columns with two derivatives by u, by recurrence."""
-        polynomials = even_gegenbauer_jet(self.index, len(self.scale) - 1, u)
-        return widened(np.roll(polynomials, -1, axis=2) * self.scale, self.series.shape[2] - 1)
+        count, polynomials = len(self.scale) - 1, even_gegenbauer_jet(self.index, len(self.scale) - 1, u)
+        shaped = np.zeros((3, len(u), self.series.shape[2]))
+        shaped[:, :, :count] = polynomials[:, :, 1:] * self.scale[:-1]
+        shaped[:, :, -1] = polynomials[:, :, 0] * self.scale[-1]
+        return shaped
 
 
 def _polynomials(u: Array, count: int) -> Array:
