@@ -64,9 +64,7 @@ def smooth(formula: Formula, names: Collection[str]) -> bool:
 
 def smooth_itself(part: Formula) -> bool:
     """Whether a part adds no kinks to the kinks of its own parts."""
-    if isinstance(part, Table):
-        return part.smooth or len(part.places) == 2
-    return not (isinstance(part, Call) and part.function in {"abs", "max", "min"})
+    return not part.kinked
 
 
 def switches(formula: Formula, names: Collection[str]) -> list[Formula]:

@@ -90,6 +90,16 @@ class Formula:
     def _names(self) -> frozenset[str]:
         return frozenset().union(*(part._names for part in self.parts))  # noqa: SLF001 - its own kind
 
+    @property
+    def kinked(self) -> bool:
+        """Whether it adds kinks to the kinks of its own parts."""
+        return False
+
+    @kept_property
+    def kinked_names(self) -> frozenset[str]:
+        """The names that occur in parts with kinks."""
+        return self.names() if self.kinked else frozenset().union(*(part.kinked_names for part in self.parts))
+
     def __eq__(self, other: object) -> bool:
         if self is other:
             return True
@@ -272,6 +282,10 @@ class Call(Formula):
     def data(self) -> str:
         return self.function
 
+    @property
+    def kinked(self) -> bool:
+        return self.function in {"abs", "max", "min"}
+
     def __str__(self) -> str:
         return f"{self.function}({', '.join(map(str, self.arguments))})"
 
@@ -294,6 +308,10 @@ class Table(OfOnePart):
     def smooth(self) -> bool:
         """Whether the slope is continuous at the places."""
         return self.kind != "table"
+
+    @property
+    def kinked(self) -> bool:
+        return not self.smooth and len(self.places) != 2
 
     @property
     def data(self) -> tuple[Any, ...]:
