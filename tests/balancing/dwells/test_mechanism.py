@@ -1,6 +1,5 @@
 """Dwell mechanisms of types I, II, III: reference tables, the composed motion, and the choice among them."""
 
-import json
 from dataclasses import replace
 from math import degrees, pi, radians
 from typing import Any
@@ -16,7 +15,6 @@ from optlaws import (
     DwellMachine,
     InfeasibleProblem,
     InputError,
-    MotionLaw,
     catalogue,
     compare_dwell_mechanisms,
     deg,
@@ -252,12 +250,6 @@ def test_size_and_residual_torque_are_traded(dwell: float, clutch: float, radius
     assert pytest.approx(shared.S1 + 2.0 * shared.S_sp) == shared.S2
     assert shared.motion.a(1.0) == pytest.approx(0.0, abs=1e-12)
     assert replace(third, inertia_ratio=0.2).b == pytest.approx(2.0 * third.b)
-
-
-def test_the_motion_is_stored() -> None:
-    motion = example("III", law=smoothstep(3)).motion
-    assert MotionLaw.from_json(motion.to_json()) == motion
-    assert json.loads(json.dumps(example("II").to_dict()))["type"] == "II"
 
 
 def test_what_is_not_given_is_as_what_stands_for_it() -> None:

@@ -1,8 +1,6 @@
 """The inertial loader: closed forms, reference tables, exchange of energy, and its trapezium substitute."""
 
-import copy
 import json
-import pickle
 from math import asinh, inf, isfinite, pi, sqrt
 
 import numpy as np
@@ -279,18 +277,6 @@ def test_masses_and_strokes() -> None:
             balanced.mass(executive_mass=1.0, executive_stroke=1.0, stroke=wrong)
         with pytest.raises(InputError, match=r"^mass must be positive"):
             balanced.stroke(executive_mass=1.0, executive_stroke=1.0, mass=wrong)
-
-
-@pytest.mark.parametrize("name", ["K", "0317(1,5)", "KC05", "trapezoidal velocity in thirds"])
-def test_laws_of_loaders_are_stored_and_copied(name: str) -> None:
-    law = inertial_loader(coded(name)).law
-    for back in (MotionLaw.from_json(law.to_json()), copy.deepcopy(law), pickle.loads(pickle.dumps(law))):  # noqa: S301
-        assert back == law
-        assert np.array_equal(back(K), law(K))
-    with pytest.raises(InputError, match="'excutive' is unknown"):
-        MotionLaw.from_dict({**law.to_dict(), "excutive": {}})
-    segment = law.piecewise.segments[0]
-    assert type(segment).from_dict(segment.to_dict()) == segment
 
 
 def test_an_entry_of_the_catalogue_stands_for_its_law() -> None:

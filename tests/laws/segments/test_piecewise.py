@@ -10,7 +10,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from optlaws import InputError, MotionLaw, Peak, PiecewiseLaw, smoothstep
+from optlaws import InputError, Peak, PiecewiseLaw, smoothstep
 from tests.internals.laws import (
     FractionalSegment,
     HarmonicSegment,
@@ -277,7 +277,6 @@ def test_peaks_are_no_less_than_samples(
             sampled = np.abs(law(k, nu)).max()
         assert law.peak(nu).value >= sampled * (1 - 1e-13)
     assert law.power_peak().value >= np.abs(law.d(k)).max() * (1 - 1e-13)
-    assert MotionLaw.from_json(law.to_json()) == law
 
 
 @example(amplitude=1.0, frequency=1.0, phase=1.1125369292536007e-308, b0=0.0)
