@@ -45,7 +45,7 @@ _FREE = 4  # the order up to which derivatives are left free at one end and give
 #: by which share of a jump of velocity it has changed at a share of the width about a corner
 _BLENDS = Polynomial([0.0, 1.0]), Polynomial([0.0, 0.0, 3.0, -2.0])
 _MOST = 0.25  # of a stroke: tolerances beyond it are none
-_HARDLY_KNOWN = 4.0  # times the least that an old peak may be: where it may be more the table does not tell it
+HARDLY_KNOWN = 4.0  # times the least that an old peak may be: where it may be more the table does not tell it
 _NONE = 1e-6  # of a new peak: what an old one is at least tells nothing
 
 
@@ -114,7 +114,7 @@ class MoveGain(NamedTuple):
         """
         old, new = self.old[nu - 1], self.new[nu - 1]
         low, high = self.intervals[nu - 1] if self.intervals else (old, old)
-        if high > _HARDLY_KNOWN * low:
+        if high > HARDLY_KNOWN * low:
             return nan
         return new / old - 1.0 if isfinite(old) and old > 0.0 else nan
 

@@ -239,11 +239,17 @@ class _Search:
             search, more, family = min(tried, key=lambda each: each[0].criterion(each[0].best(each[2])))
             if search.criterion(search.best(family)) > self.criterion(best) - EVIDENT:
                 break
-            evident = search.best(family).changes()
+            evident = search.evident_corners(search.best(family))
             if evident == search.fitter.corners:
                 return search, *search.jointed(family, more)
             sides = [evident] if evident in sides else []
         return self, joints, fits
+
+    def evident_corners(self, fit: CurveFit) -> tuple[bool, bool]:
+        """Where a fit leaves lines or rests at corners, not where a line might end by more than is looked at."""
+        (before, after), changes = self.fitter.ends, fit.changes()
+        near = self.fitter.fine * float(np.median(np.diff(self.fitter.x)))
+        return changes[0] and bool(fit.start > before.low + near), changes[1] and bool(fit.stop < after.high - near)
 
     def _cornered(
         self, best: CurveFit, corners: tuple[bool, bool]

@@ -15,6 +15,8 @@ _TURN = 360.0  # deg of the master of a cycle in a turn
 _TURNS = {"deg": _TURN, "rad": 2.0 * np.pi, "turn": 1.0, "rev": 1.0}
 _NEAR = 1e-3  # of the positions: by how much more the last one may be off the first one than steps beside it are
 _BESIDE = 4  # steps beside each end, by some of which noise is seen
+_ROWS_OVER_SEAM = 7  # on each side, whose slopes are alike where a motion goes on
+_ALIKE = 0.25  # of the steps beside the ends of a table: by how much they may differ
 _MOST_LOBES = 100
 _LONG_STEP = 5  # times the median step: a longer one between equal positions is a rest
 _STEP_OF_TURN = 0.25  # a position that goes on over the end of its turn makes no longer step
@@ -111,8 +113,11 @@ def closed(
     (151, 1500.0)
     """
     length, step = float(np.ptp(places)), float(np.diff(places)[-1])
-    if turn is None and angle and abs(length + step - _TURN) <= _WHOLE * _TURN:
-        turn = _TURN if advance is not None or abs(heights[-1] - heights[0]) <= beside_ends(heights) else None
+    whole = turn or (_TURN if angle else 0.0)
+    if abs(length + step - whole) <= _WHOLE * whole:
+        advances = advance is None and abs(heights[-1] - heights[0]) > beside_ends(heights)
+        advance = _advance_over_seam(places, heights, whole) if advances else advance
+        turn = turn if advances and advance is None else whole
     if turn is None or abs(turn - length) <= _WHOLE * turn:
         if advance is not None and abs(heights[-1] - heights[0] - advance) > 1e-3 * np.ptp(heights):
             raise InputError(
@@ -126,6 +131,20 @@ def closed(
             "rows how many of them count"
         )
     return np.append(places, places[0] + turn), np.append(heights, heights[0] + (advance or 0.0))
+
+
+def _advance_over_seam(places: Array, heights: Array, turn: float) -> float | None:
+    """What an endless motion advances by, whose rows end a step before the seam; None where it does not go on there."""
+    count = min(_ROWS_OVER_SEAM, len(places) // 2)
+    sides = (slice(-count, None), places[0] + turn), (slice(count), places[0])
+    lines, bent = (
+        [np.polynomial.Polynomial.fit(places[rows] - seam, heights[rows], degree) for rows, seam in sides]
+        for degree in (1, 2)
+    )
+    slopes = [float(line.deriv()(0.0)) for line in lines]
+    if abs(slopes[0] - slopes[1]) * float(np.diff(places)[-1]) > _ALIKE * beside_ends(heights):
+        return None
+    return float(bent[0](0.0) - bent[1](0.0))
 
 
 def begun(places: Array, heights: Array, begin: float | None, advance: float | None) -> tuple[Array, Array]:

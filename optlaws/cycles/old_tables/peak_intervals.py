@@ -26,8 +26,8 @@ _KINK = 0.14
 _OFF_KINK, _SHOWN = 0.0031, 6.0
 #: windows have so many rows, and each begins so many parts of its length behind the last one
 _LONGER, _OVERLAP = 1.35, 6
-#: places of each piece of degree 5 at which a band is looked at
-_PLACES = 24
+#: places of each piece of degree 5 at which a band is looked at, and of a move
+_PLACES, _FEWEST_PLACES = 24, 192
 
 
 class PeakInterval(NamedTuple):
@@ -115,7 +115,8 @@ def most_peak(fits: Sequence[CurveFit], nu: int, low: float, high: float) -> flo
             return inf
         inner = fit.breaks[(fit.breaks > start) & (fit.breaks < stop)]
         edges = np.concatenate([[start], inner, [stop]])
-        share = np.linspace(0.0, 1.0, _PLACES * fit.degree // DEGREE, endpoint=False)
+        places = max(_PLACES, _FEWEST_PLACES // (len(edges) - 1))
+        share = np.linspace(0.0, 1.0, places * fit.degree // DEGREE, endpoint=False)
         at = np.append((edges[:-1, None] + np.diff(edges)[:, None] * share).ravel(), stop)
         # one-sided values before jumps too
         at = np.unique(np.concatenate([at, np.nextafter(inner, -inf)]))

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from optlaws.cycles.old_tables.better_laws import MoveGain
+from optlaws.cycles.old_tables.better_laws import HARDLY_KNOWN, MoveGain
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.stretches import Stretch, law_of_move
 from optlaws.cycles.old_tables.table import OldTable
@@ -64,10 +64,12 @@ class OldTableReport:
         for nu in (2, 3):
             (low, high), new = whole.intervals[nu - 1], whole.new[nu - 1]
             name, unit = QUANTITIES[nu], self.table.unit_of(nu)
-            if not isfinite(new) or new <= _HARDER * (high if isfinite(high) else low):
+            is_known = high <= HARDLY_KNOWN * low
+            old = high if is_known else low
+            if not isfinite(new) or not old or new <= _HARDER * old:
                 continue
-            what, was = Amount(new, unit, 3), Amount(high if isfinite(high) else low, unit, 3)
-            known = "at most" if isfinite(high) else "above"
+            what, was = Amount(new, unit, 3), Amount(old, unit, 3)
+            known = "at most" if is_known else "above"
             yield sentence("the greatest {} of the new cycle is {}, that of the old one {} {}", name, what, known, was)
 
     @kept_property

@@ -118,9 +118,10 @@ def _parts_of(motion: FittedMotion) -> Iterator[Stretch]:
             at, level = start, move.low
             continue
         stop = move.stop if float(x[-1]) - move.stop > least else float(x[-1])
-        kind: StretchKind = "rise" if move.high > move.low else "return"
-        law = move.name or _law_of(move)
-        yield Stretch(kind, start, stop, move.low, move.high, law, move.nearest, peaks=move.peaks)
+        if start < stop:
+            kind: StretchKind = "rise" if move.high > move.low else "return"
+            law = move.name or _law_of(move)
+            yield Stretch(kind, start, stop, move.low, move.high, law, move.nearest, peaks=move.peaks)
         at, level = stop, move.high
     if float(x[-1]) > at:
         last = motion.moves[-1].position_behind(float(x[-1]))

@@ -369,7 +369,7 @@ class OldTable:
         if self.peaks:
             remarks.append(sentence("greatest {}", joined(", ", map(self.peak_in_words, (1, 2, 3)))))
         if self.corners:
-            remarks.append(sentence("the velocity jumps at {}", self._named(self.corners)))
+            remarks.append(sentence("the velocity jumps at {}, as far as the points tell", self._named(self.corners)))
         if self.outliers:
             far = self._named(self.places[list(self.outliers)].tolist())
             remarks.append(sentence("far off the motion and left out: the points at {}", far))
