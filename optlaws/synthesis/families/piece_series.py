@@ -85,7 +85,7 @@ class PieceSeries:
     def values(self, u: Array) -> Array:
         """Columns at the points u, shape (points, columns)."""
         piece, local = self.place(u)
-        return self.sums(chebyshev.chebvander(local, self.series.shape[1] - 1), piece)
+        return self.sums(basis_values(local, self.terms), piece)
 
     def sums(self, basis: NDArray[np.floating[Any]], piece: NDArray[np.intp]) -> Array:
         """Columns at points of pieces from the Chebyshev polynomials there; many points of a piece share its series."""

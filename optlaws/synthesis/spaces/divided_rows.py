@@ -80,6 +80,9 @@ def below_peak(acceleration: PieceSeries, jerk: PieceSeries, centre: float, *, s
         u = low + (high - low) * (1.0 + nodes(count)) / 2.0
         of = chord if smooth else kink
         divided[i] = from_values(of(_extended(jerk if smooth else acceleration, i), u, centre, count - 1))
+        if smooth:
+            # it has two degrees less: the rest is rounding
+            divided[i, max(count - 2, 1) :] = 0.0
     for i in (*range(touching[0] - 1, -1, -1), *range(touching[-1] + 1, len(divided))):
         inner, end = (i + 1, -1.0) if breaks[i + 1] >= centre else (i - 1, 1.0)
         near, behind = (breaks[i + 1], inner) if end < 0.0 else (breaks[i], inner)
