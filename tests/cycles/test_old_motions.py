@@ -249,6 +249,15 @@ def test_an_endless_index_of_a_turn_but_its_last_row_is_read_over_the_seam(frame
     assert table.stretches[-1].high - table.stretches[0].low == pytest.approx(360.0, abs=2e-3)
 
 
+def test_rows_that_end_a_step_before_a_round_time_are_remarked() -> None:
+    t = np.arange(600) / 1000.0
+    y = 12.0 * QUINTIC(np.clip((t - 0.1) / 0.15, 0.0, 1.0)) - 12.0 * QUINTIC(np.clip((t - 0.35) / 0.15, 0.0, 1.0))
+    remark = "the rows are a turn of 0.599 s: say by turn if it is one of 0.6 s"
+    assert remark in str(split_table(t, np.round(y, 4), master="s", digit=1e-4))
+    assert remark not in str(split_table(t, np.round(y, 4), master="s", digit=1e-4, turn=0.6))
+    assert "turn of" not in str(split_table(np.append(t, 0.6), np.round(np.append(y, 0.0), 4), master="s", digit=1e-4))
+
+
 def test_exact_rests_do_not_hide_the_noise_of_moves() -> None:
     x = np.arange(0.0, 360.01, 0.5)
     law = catalogue["cycloidal"].law

@@ -27,7 +27,7 @@ from optlaws.cycles.old_tables.motion import motion_of
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.reading import points_in
 from optlaws.cycles.old_tables.rests_and_lines import NOISE_ROOM
-from optlaws.cycles.old_tables.samples import gaps_of, samples_of
+from optlaws.cycles.old_tables.samples import gaps_of, samples_of, unit_of_rounding
 from optlaws.cycles.old_tables.stated_functions import stretches_of_pieces
 from optlaws.cycles.old_tables.stretches import Stretch, corners_of, law_of_move, position, seam_of, stretches_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, Rise
@@ -48,6 +48,7 @@ _USELESS = 10.0  # times the lower end of an interval: an upper end that is more
 _MOST_NAMED = 8  # places that a remark lists
 _MOVING = 1e-3  # of the greatest velocity of a stretch: it begins with one that is more
 _WHOLE_TURN = 1e-6  # of a turn: by how much rows that are one may be longer or shorter
+_ROUNDER = 9.0  # times the unit to which one length is rounded: another one is rounder
 _LESS_NOISE = 0.5  # of the noise by differences: where rows are nearer to the fitted motion that is the noise
 _STANDARD_LAW_ROOM = 1e-7  # of the stroke of a table with all digits: by how much a standard law may be off its points
 
@@ -362,6 +363,11 @@ class OldTable:
             remarks.append(
                 sentence("it moves where it begins: its moves are whole where begin is {}, in a rest", middle)
             )
+        lengths = [length := float(np.ptp(self.places)), length + float(np.diff(self.places)[-1])]
+        units = [unit_of_rounding(np.array([each])) for each in lengths]
+        if not self.whole and 0.0 < _ROUNDER * units[0] <= units[1]:
+            of_rows, of_turn = (Amount(each, self.master, 6) for each in lengths)
+            remarks.append(sentence("the rows are a turn of {}: say by turn if it is one of {}", of_rows, of_turn))
         if self.stretches[0].start:
             remarks.append(
                 sentence("the cycle begins at {} of its master", Amount(self.stretches[0].start, self.master))
