@@ -4,7 +4,7 @@ from optlaws.verification.claims import verified
 from optlaws.verification.enclosing.ball_formulas import BALLS, series_of
 from optlaws.verification.enclosing.balls import ball, enclosed, lower, upper
 from optlaws.verification.enclosing.taylor_models import between, integrals, real_roots
-from optlaws.verification.exact.bound import prove
+from optlaws.verification.exact.bound import Along, prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.least_times import least_time_of_any_law
 from optlaws.verification.exact.limit import exact_limit

@@ -17,15 +17,18 @@ from optlaws import (
     Certificate,
     Chebyshev,
     Contact,
+    InputError,
     Link,
     Machine,
     Problem,
+    Window,
     at_most,
     synthesize,
+    via,
 )
 from optlaws.verification import exact_bound
 from tests.internals.synthesis import VIOLATION
-from tests.internals.verification import ExactRows, prove
+from tests.internals.verification import Along, ExactRows, prove
 from tests.synthesis.proof.test_certificate_by_hand import C_BASE, GAUSS, c_at
 
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
@@ -156,3 +159,20 @@ def test_peaks_of_one_sign_may_be_negative_where_the_velocity_changes() -> None:
     free = small(order=1, minimise="C_plus", symmetric=False)
     assert ExactRows(Certificate.of_leaf(free)).sublevel.least_values() == {"C_plus": -inf}
     assert ExactRows(Certificate.of_leaf(small(minimise="C_plus"))).sublevel.least_values() == {"C_plus": 0}
+
+
+def test_along_a_number_on_a_right_side_bounds_rise_as_the_optimum_and_along_others_there_are_none() -> None:
+    problem = Problem(order=3, basis=Chebyshev(7), windows=(via("a", 0.25, at=0.4),), symmetric=False)
+    solution = synthesize(problem)
+
+    def along(window: Window) -> Any:
+        step = replace(problem, windows=(window,))
+        return step, prove(solution.certificate, Along(step, Fraction(1, 128), problem, 2.0 * solution.objective))
+
+    step, proof = along(via("a", 0.25 + 1 / 128, at=0.4))
+    low, high = map(float, proof.slope)
+    there = synthesize(step).objective
+    assert low <= high < low + 1e-9 * abs(low)
+    assert there - 2e-2 * abs(high) / 128 <= float(proof.value) + high / 128 <= there * (1.0 + 1e-9)
+    with pytest.raises(InputError, match="the number changes coefficients of constraints"):
+        along(via("a", 0.25, at=0.4 + 1 / 128))
