@@ -85,7 +85,12 @@ class PieceSeries:
     def values(self, u: Array) -> Array:
         """Columns at the points u, shape (points, columns)."""
         piece, local = self.place(u)
-        return self.sums(basis_values(local, self.terms), piece)
+        return self.sums(self._basis(local), piece)
+
+    def _basis(self, local: Array) -> Array:
+        """The polynomials at local places: at the ends of pieces by the recurrence, which has more digits there."""
+        one = len(self.series) == 1
+        return basis_values(local, self.terms) if one else np.asarray(chebyshev.chebvander(local, self.terms - 1))
 
     def sums(self, basis: NDArray[np.floating[Any]], piece: NDArray[np.intp]) -> Array:
         """Columns at points of pieces from the Chebyshev polynomials there; many points of a piece share its series."""
@@ -122,7 +127,7 @@ class PieceSeries:
     def jets(self, u: Array) -> NDArray[Any]:
         """Columns with two derivatives by u at the points u, shape (3, points, columns)."""
         piece, local = self.place(u)
-        flat = self._jet.sums(basis_values(local, self.terms), piece)
+        flat = self._jet.sums(self._basis(local), piece)
         return np.asarray(flat.reshape(len(u), 3, self.series.shape[2]).transpose(1, 0, 2))
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
