@@ -583,15 +583,6 @@ def test_corners_of_a_table_of_five_decimals_and_the_crest_between_them_are_plac
     assert np.abs(table.at(x) - y).max() <= 1.5e-5
 
 
-def test_corners_of_ramps_of_eleven_rows_are_found() -> None:
-    x = np.linspace(0.0, 360.0, 181)
-    lift = BPoly.from_derivatives([117.0, 169.0], [[0.44, 0.0, 0.0], [8.64, 0.0, -0.0076]])
-    away = np.minimum(x, 338.0 - x)
-    y = np.select([away <= 95.0, away < 117.0], [0.0, 0.02 * (away - 95.0)], lift(np.minimum(away, 169.0)))
-    table = split_table(x, np.round(y + np.random.default_rng(3).normal(0.0, 3e-3, 181), 3), digit=1e-3)
-    assert table.corners == pytest.approx((95.0, 117.0, 221.0, 243.0), abs=0.5)
-
-
 def test_a_line_that_a_lift_joins_smoothly_has_no_corner_where_it_might_end() -> None:
     """The rows of a line go on as this does into a smooth lift, whose likeliest corner is as far back as it may be."""
     x = np.linspace(0.0, 360.0, 361)

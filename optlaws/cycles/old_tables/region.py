@@ -22,8 +22,8 @@ from optlaws.numerics.roots import bisect
 
 #: steps within which a move is known to be, and no more of it
 _FEWEST_MOVING = 4
-#: by how much the variance about a standard law may exceed that about a spline: of F, one in a thousand
-_UNLIKELY = 1e-3
+#: by how much the variance about a standard law may exceed that about a spline whose ends were looked for: of F
+_UNLIKELY = 1e-5
 _UNCERTAIN = 3.0
 #: of a peak of a standard law, by which places of its ends that are rounded may change it
 _ROUNDED_LAW = 1e-3

@@ -64,12 +64,15 @@ class OldTableReport:
         for nu in (2, 3):
             (low, high), new = whole.intervals[nu - 1], whole.new[nu - 1]
             name, unit = QUANTITIES[nu], self.table.unit_of(nu)
-            is_known = high <= HARDLY_KNOWN * low
-            old = high if is_known else low
-            if not isfinite(new) or not old or new <= _HARDER * old:
+            if not isfinite(new):
+                continue
+            if isfinite(high) and new > _HARDER * high:
+                known, old = "at most", high
+            elif high > HARDLY_KNOWN * low and 0.0 < _HARDER * low < new:
+                known, old = "above", low
+            else:
                 continue
             what, was = Amount(new, unit, 3), Amount(old, unit, 3)
-            known = "at most" if is_known else "above"
             yield sentence("the greatest {} of the new cycle is {}, that of the old one {} {}", name, what, known, was)
 
     @kept_property

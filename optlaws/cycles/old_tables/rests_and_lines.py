@@ -21,7 +21,7 @@ _SHORTEST_REST = 1.0 / 200.0
 #: sum of squares that a polynomial of degree 4 takes off noise by chance
 _BENT = 14.0
 #: rows of a window in which a motion is looked at for constant velocity, and the share of rows that one has at least
-_WINDOW, _SHARE = 10, 0.06
+_WINDOW, _SHARE = 12, 0.06
 #: where the moves beside a rest begin within its run, from -1 to 1, and how long the rest is there at least
 _TAILS = np.linspace(-1.0, -0.1, 7)
 _RESTING = 0.5
