@@ -89,8 +89,8 @@ class PieceSeries:
 
     def _basis(self, local: Array) -> Array:
         """The polynomials at local places: at the ends of pieces by the recurrence, which has more digits there."""
-        one = len(self.series) == 1
-        return basis_values(local, self.terms) if one else np.asarray(chebyshev.chebvander(local, self.terms - 1))
+        is_single = len(self.series) == 1
+        return basis_values(local, self.terms) if is_single else np.asarray(chebyshev.chebvander(local, self.terms - 1))
 
     def sums(self, basis: NDArray[np.floating[Any]], piece: NDArray[np.intp]) -> Array:
         """Columns at points of pieces from the Chebyshev polynomials there; many points of a piece share its series."""
