@@ -54,11 +54,8 @@ from .cycles.moves.fastest_move import FastestMove as FastestMove
 from .cycles.moves.time_front import TimeFront as TimeFront, time_front as time_front
 from .cycles.moves.timed_moves import fastest as fastest, fastest_moves as fastest_moves
 from .cycles.transitions import TransitionCam as TransitionCam
-from .cycles.old_tables.table import (
-    OldTable as OldTable,
-    read_cycle_table as read_cycle_table,
-    split_table as split_table,
-)
+from .cycles.old_tables.splitting import read_cycle_table as read_cycle_table, split_table as split_table
+from .cycles.old_tables.table import OldTable as OldTable
 from .cycles.specification.segments import (
     ConstantVelocity as ConstantVelocity,
     Dwell as Dwell,

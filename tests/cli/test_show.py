@@ -190,7 +190,7 @@ def test_a_function_says_what_its_options_are() -> None:
         ("optlaws.cycles.law_comparison:compare_laws", compare_laws),
         ("optlaws.cycles.advising.advice:advise", advise),
         ("optlaws.laws.catalogue.reading:read_law", read_law),
-        ("optlaws.cycles.old_tables.table:read_cycle_table", read_cycle_table),
+        ("optlaws.cycles.old_tables.splitting:read_cycle_table", read_cycle_table),
         ("optlaws.synthesis.pareto:pareto_front", pareto_front),
         ("optlaws.mechanisms.machine.follower:from_vibration", Follower.from_vibration),
         ("optlaws.mechanisms.machine.response:in_units", Response.in_units),

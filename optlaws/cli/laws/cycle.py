@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 _GROUP = "The table of an old cam"
 _SEGMENTS = "the cycle, whose segments are the stretches of the table"
 _HOW = options(
-    "optlaws.cycles.old_tables.table:read_cycle_table",
+    "optlaws.cycles.old_tables.splitting:read_cycle_table",
     *("unit", "master", "cam", "turn", "advance", "rows", "lobes", "begin", "tolerance"),
     group=_GROUP,
     columns=COLUMNS,

@@ -15,8 +15,9 @@ from optlaws import Cycle
 from optlaws.cycles.old_tables.better_laws import bettered
 from optlaws.cycles.old_tables.reading import points_in
 from optlaws.cycles.old_tables.report import OldTableReport
+from optlaws.cycles.old_tables.splitting import table_of
 from optlaws.cycles.old_tables.stretches import Stretch
-from optlaws.cycles.old_tables.table import OldTable, table_of
+from optlaws.cycles.old_tables.table import OldTable
 from optlaws.entries.declared import Declared, declared, entry
 from optlaws.entries.value_types import Number, Text, Whole
 from optlaws.errors import InputError
