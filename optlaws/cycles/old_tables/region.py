@@ -15,7 +15,7 @@ from optlaws.cycles.old_tables.curve_fit import DEGREE, CurveFit, End, interpola
 from optlaws.cycles.old_tables.fitting import EVIDENT, SIMPLE, UNRESOLVED, fits_of, likely
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
 from optlaws.cycles.old_tables.rests_and_lines import FEWEST, NOISE_ROOM, Line, lines_of
-from optlaws.cycles.old_tables.samples import MEDIAN, Samples, gaps_of, off_both_sides
+from optlaws.cycles.old_tables.samples import MEDIAN, Samples, gaps_of, off_both_sides, turning_points
 from optlaws.cycles.old_tables.standard import JUMP, Chain, Outline, criterion, spline_of
 from optlaws.numbers import Array
 from optlaws.numerics.roots import bisect
@@ -245,7 +245,7 @@ class Region:
         heights = self.y.copy()
         heights[1:-1] = np.median(sliding_window_view(self.y, 3), axis=1)
         room = 2.0 * NOISE_ROOM * float(self.noise.max()) + 2.0 * self.digit
-        turns = min((_turning_points(row, room) for row in (self.y, heights)), key=len)
+        turns = min((turning_points(row, room) for row in (self.y, heights)), key=len)
         low, high = self.about
         return [low, *(float(self.x[i]) for i in turns if low < self.x[i] < high), high]
 
@@ -565,29 +565,6 @@ def _is_simple(fits: Sequence[CurveFit]) -> bool:
     if not fits or len(fits[0].joints) > sum(fits[0].corners) or fits[0].variance > UNRESOLVED:
         return False
     return max(fits[0].pieces, fits[0].degree - DEGREE) <= SIMPLE
-
-
-def _turning_points(y: Array, room: float) -> list[int]:
-    """Rows where the motion turns back by more than a room."""
-    turns: list[int] = []
-    low = high = 0
-    rising = 0
-    for i in range(1, len(y)):
-        if y[i] > y[high]:
-            high = i
-        if y[i] < y[low]:
-            low = i
-        if rising >= 0 and y[high] - y[i] > room:
-            if rising > 0:
-                turns.append(high)
-            rising, low = -1, i
-            high = i
-        elif rising <= 0 and y[i] - y[low] > room:
-            if rising < 0:
-                turns.append(low)
-            rising, high = 1, i
-            low = i
-    return turns
 
 
 def _turn(fit: CurveFit, place: float) -> float:

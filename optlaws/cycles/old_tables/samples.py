@@ -160,6 +160,35 @@ def gaps_of(places: Array, heights: Array, room: float) -> list[tuple[float, flo
     return [(float(places[row]), float(places[row + 1])) for row in rows]
 
 
+def turning_points(y: Array, room: float) -> list[int]:
+    """Rows where the motion turns back by more than a room.
+
+    Examples
+    --------
+    >>> turning_points(np.array([0.0, 2.0, 3.0, 2.9, 3.0, 1.0, 0.0, 0.5]), 0.2)
+    [2, 6]
+    """
+    turns: list[int] = []
+    low = high = 0
+    rising = 0
+    for i in range(1, len(y)):
+        if y[i] > y[high]:
+            high = i
+        if y[i] < y[low]:
+            low = i
+        if rising >= 0 and y[high] - y[i] > room:
+            if rising > 0:
+                turns.append(high)
+            rising, low = -1, i
+            high = i
+        elif rising <= 0 and y[i] - y[low] > room:
+            if rising < 0:
+                turns.append(low)
+            rising, high = 1, i
+            low = i
+    return turns
+
+
 def even_places(places: Array) -> Array:
     """The even places that rounded ones were, if rounding and rows left out explain all differences; else the places.
 
