@@ -458,6 +458,10 @@ class StateSpace(Declared, title="a machine"):
         states = (np.array(row) @ self.dynamics.out_of for row in self.C)
         return dict(zip(self.outputs, zip(states, self.direct, strict=True), strict=True))
 
+    def output_rows(self, output: str) -> tuple[Complex, Array]:
+        """The rows of an output."""
+        return self.rows[self.outputs[self.place(output)]]
+
     def place(self, output: str | None) -> int:
         """The index of an output by its name; the first output if there is no name."""
         if output is None:
