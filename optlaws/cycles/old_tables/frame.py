@@ -16,6 +16,7 @@ _TURNS = {"deg": _TURN, "rad": 2.0 * np.pi, "turn": 1.0, "rev": 1.0}
 _NEAR = 1e-3  # of the positions: by how much more the last one may be off the first one than steps beside it are
 _BESIDE = 4  # steps beside each end, by some of which noise is seen
 _ROWS_OVER_SEAM = 7  # on each side, whose slopes are alike where a motion goes on
+_FINE = 100  # rows in a turn: in fewer the motion may change between those on each side of a seam
 _ALIKE = 0.25  # of the steps beside the ends of a table: by how much they may differ
 _MOST_LOBES = 100
 _LONG_STEP = 5  # times the median step: a longer one between equal positions is a rest
@@ -135,8 +136,9 @@ def closed(
 
 def _advance_over_seam(places: Array, heights: Array, turn: float) -> float | None:
     """What an endless motion advances by, whose rows end a step before the seam; None where it does not go on there."""
-    count = min(_ROWS_OVER_SEAM, len(places) // 2)
-    sides = (slice(-count, None), places[0] + turn), (slice(count), places[0])
+    if len(places) < _FINE:
+        return None
+    sides = (slice(-_ROWS_OVER_SEAM, None), places[0] + turn), (slice(_ROWS_OVER_SEAM), places[0])
     lines, bent = (
         [np.polynomial.Polynomial.fit(places[rows] - seam, heights[rows], degree) for rows, seam in sides]
         for degree in (1, 2)

@@ -63,7 +63,7 @@ class OldTable:
 
     Examples
     --------
-    >>> from optlaws import catalogue
+    >>> from optlaws import catalogue, split_table
     >>> table = split_table(
     ...     np.arange(361.0), [round(30 * float(catalogue["cycloidal"].law(min(x / 120, 1))), 3) for x in range(361)]
     ... )
@@ -95,6 +95,7 @@ class OldTable:
 
         Examples
         --------
+        >>> from optlaws import split_table
         >>> x = np.arange(0.0, 1500.0, 10.0)  # mm of a web, of which 1,500 are a turn
         >>> table = split_table(x, 5.0 - 5.0 * np.cos(2.0 * np.pi * x / 1500.0), master="mm", turn=1500.0)
         >>> round(table.cycle(speed="3 m/s").duration, 9)
@@ -178,7 +179,7 @@ class OldTable:
 
         Examples
         --------
-        >>> from optlaws import catalogue
+        >>> from optlaws import catalogue, split_table
         >>> x = np.arange(361.0)
         >>> law = catalogue["cycloidal"].law
         >>> old = split_table(x, np.round(30 * (law(np.clip(x / 120, 0, 1)) - law(np.clip((x - 180) / 120, 0, 1))), 4))
@@ -199,7 +200,7 @@ class OldTable:
 
         Examples
         --------
-        >>> from optlaws import catalogue
+        >>> from optlaws import catalogue, split_table
         >>> x = np.arange(361.0)
         >>> law = catalogue["cycloidal"].law
         >>> old = split_table(x, np.round(30 * (law(np.clip(x / 120, 0, 1)) - law(np.clip((x - 180) / 120, 0, 1))), 4))
@@ -221,6 +222,7 @@ class OldTable:
 
         Examples
         --------
+        >>> from optlaws import split_table
         >>> x = np.arange(0.0, 361.0, 5.0)
         >>> old = split_table(x, np.clip(x, 30.0, 100.0) - np.clip(0.5 * x, 80.0, 150.0))
         >>> [round(number, 4) for number in old.bettered(1.0).gain_of_cycle(old).new]
@@ -254,7 +256,7 @@ class OldTable:
 
         Examples
         --------
-        >>> from optlaws import catalogue
+        >>> from optlaws import catalogue, split_table
         >>> law = catalogue["cycloidal"].law
         >>> table = split_table(np.arange(361.0), [30 * float(law(min(x / 120, 1))) for x in range(361)])
         >>> len({artist.axes for artist in table.plot()})
@@ -269,7 +271,7 @@ class OldTable:
 
         Examples
         --------
-        >>> from optlaws import catalogue
+        >>> from optlaws import catalogue, split_table
         >>> law = catalogue["cycloidal"].law
         >>> table = split_table(np.arange(361.0), [30 * float(law(min(x / 120, 1))) for x in range(361)])
         >>> table.at([0.0, 60.0, 200.0]).round(9).tolist()
@@ -300,6 +302,7 @@ class OldTable:
 
         Examples
         --------
+        >>> from optlaws import split_table
         >>> x = np.arange(0.0, 361.0, 5.0)
         >>> split_table(x, np.clip(x, 30.0, 100.0) - np.clip(0.5 * x, 80.0, 150.0)).corners
         (30.0, 100.0, 160.0, 300.0)
