@@ -58,13 +58,7 @@ def smooth(formula: Formula, names: Collection[str]) -> bool:
     >>> smooth(read("b*c + abs(k)"), "bc"), smooth(read("abs(b)"), "bc")
     (True, False)
     """
-    kinked = (part for part in formula.different if not smooth_itself(part))
-    return not any(part.names() & set(names) for part in kinked)
-
-
-def smooth_itself(part: Formula) -> bool:
-    """Whether a part adds no kinks to the kinks of its own parts."""
-    return not part.kinked
+    return not formula.kinked_names & set(names)
 
 
 def switches(formula: Formula, names: Collection[str]) -> list[Formula]:
@@ -78,7 +72,7 @@ def switches(formula: Formula, names: Collection[str]) -> list[Formula]:
     """
     formulas: list[Formula] = []
     for part in _inner_first(formula):
-        if (smooth_itself(part) and not isinstance(part, Table)) or not part.names() & set(names):
+        if (not part.kinked and not isinstance(part, Table)) or not part.names() & set(names):
             continue
         if isinstance(part, Table):
             formulas += [added([part.of, opposite(number(place))]) for place in part.places[1:-1]]
@@ -110,7 +104,7 @@ def corners(formula: Formula, names: Collection[str]) -> list[Formula]:
     >>> corners(read("table(x, 0:0, 1:1, 3:0) + spline(x, 0:1, 1:2, 2:3, 3:3)"), "x")
     [x - 1]
     """
-    bent = (part for part in formula.different if isinstance(part, Table) and not smooth_itself(part))
+    bent = (part for part in formula.different if isinstance(part, Table) and part.kinked)
     return [switch for table in dict.fromkeys(bent) for switch in switches(table, names)]
 
 
@@ -140,7 +134,7 @@ def branches_at(formula: Formula, names: Mapping[str, Array], count: int) -> lis
     for part, places, _ in formula.steps:
         of = [values[place] for place in places]
         values.append(np.broadcast_to(step_value(part, of, names, NUMPY), (count,)))
-        if isinstance(part, Table) or not smooth_itself(part):
+        if isinstance(part, Table) or part.kinked:
             choices.append(_choice(part, of))
     keys = np.array(choices, dtype=np.intp).reshape(len(choices), count).T.tolist()
     for key in map(tuple, keys):
@@ -169,7 +163,7 @@ def _chosen(formula: Formula, choices: Sequence[int]) -> Formula:
             i = next(left)
             start = added([parts[0], opposite(number(part.places[i]))])
             built.append(_in_powers(pieces(part)[i].tolist(), start))
-        elif smooth_itself(part):
+        elif not part.kinked:
             same = all(new is old for new, old in zip(parts, part.parts, strict=True))
             built.append(part if same else rebuilt(part, parts))
         elif len(parts) == 1:
@@ -197,7 +191,7 @@ def rounded(formula: Formula, radius: float) -> Formula:
     parts = [rounded(part, radius) for part in formula.parts]
     if isinstance(formula, Table) and not formula.smooth and formula.order == 0:
         return _through(formula, parts[0])
-    if smooth_itself(formula) or not isinstance(formula, Call):
+    if not formula.kinked or not isinstance(formula, Call):
         return rebuilt(formula, parts) if parts else formula
     if len(parts) == 1:
         return _hyperbola(parts[0], radius)
@@ -239,7 +233,7 @@ class _Branches:
 
     def _has_corners_alone(self, formula: Formula) -> bool:
         """Whether all kinks are those of tables of straight lines."""
-        kinked = (part for part in formula.different if not isinstance(part, Table) and not smooth_itself(part))
+        kinked = (part for part in formula.different if not isinstance(part, Table) and part.kinked)
         return not any(part.names() & self.names for part in kinked)
 
     def _maximum(self, formula: Formula, *, greatest: bool) -> list[Formula] | None:

@@ -16,7 +16,6 @@ from optlaws.entries.value_types import Together as Tuple
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names, of_known_format
 from optlaws.formulas.arithmetic import NUMPY, Together, evaluate
-from optlaws.formulas.branches import smooth_itself
 from optlaws.formulas.slopes import added
 from optlaws.formulas.tree import Formula, Name, Table
 from optlaws.kept import kept_property
@@ -175,7 +174,7 @@ class Mechanism(Declared, title="a mechanism"):
         numbers = {name: float(quantity(getattr(self, name), of, name, bare=True)) for name, of in friction.items()}
         over = _range({"inertia": inertia, "load": load}, ends, kind)
         vars(self).update(inertia_formula=inertia, load_formula=load, over=over, axis=kind, **numbers)
-        if any(isinstance(part, Table) and not smooth_itself(part) for part in inertia.different):
+        if any(isinstance(part, Table) and part.kinked for part in inertia.different):
             raise InputError(
                 "the inertia has corners, where the torque would jump: a table is joined by a smooth curve, and in a "
                 "formula monotone(x, ...) is one"

@@ -13,7 +13,6 @@ from functools import lru_cache
 import numpy as np
 
 from optlaws.formulas.arithmetic import NUMPY, Together, evaluate
-from optlaws.formulas.branches import smooth_itself
 from optlaws.formulas.slopes import added, derivative, multiplied
 from optlaws.formulas.tree import Formula, Name, Product, Sum, Table, rebuilt, substituted
 from optlaws.kept import kept_property
@@ -112,7 +111,7 @@ def _outer(formula: Formula, shorthand: dict[Formula, str]) -> Formula:
 
 
 def _of_position(formula: Formula) -> bool:
-    return formula.names() - {"pi"} == {_POSITION} and all(smooth_itself(step.formula) for step in formula.steps)
+    return formula.names() - {"pi"} == {_POSITION} and all(not step.formula.kinked for step in formula.steps)
 
 
 def _named(formula: Formula, shorthand: dict[Formula, str]) -> Formula:

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, Literal
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names
-from optlaws.formulas.branches import smooth_itself
 from optlaws.formulas.of_motion import MotionFormula, checked, of_text
 from optlaws.formulas.reading import LONGEST, FormulaError, read
 from optlaws.formulas.slopes import added, derivative, multiplied, opposite
@@ -316,7 +315,7 @@ def _checked(constant: OfFormula, formula: Any) -> OfFormula:
     why = refusal(constant)
     if why is not None:
         text = formula if isinstance(formula, str) else str(constant.motion.formula)
-        kinked = next(part for part in constant.motion.formula.different if not smooth_itself(part))
+        kinked = next(part for part in constant.motion.formula.different if part.kinked)
         raise FormulaError(why, text, kinked.place)
     return constant
 
