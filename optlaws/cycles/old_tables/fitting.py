@@ -232,17 +232,20 @@ class _Search:
         """The search, joints and fits that leave lines or rests with other velocities where these are far likelier."""
         best, (before, after) = self.best(fits), self.fitter.ends
         sides = [(first, last) for first, last in _CORNERS if (before.line or not first) and (after.line or not last)]
-        while sides and best.free > _CORNERED and self.fitter.advance is None:
-            tried = [each for each in (self._cornered(best, corners) for corners in sides) if each[2]]
-            if not tried:
-                break
-            search, more, family = min(tried, key=lambda each: each[0].criterion(each[0].best(each[2])))
+        if best.free <= _CORNERED or self.fitter.advance is not None:
+            return self, joints, fits
+        tried = {corners: each for corners in sides if (each := self._cornered(best, corners))[2]}
+        corners = min(
+            tried, key=lambda each: tried[each][0].criterion(tried[each][0].best(tried[each][2])), default=None
+        )
+        while corners in tried:
+            search, more, family = tried.pop(corners)
             if search.criterion(search.best(family)) > self.criterion(best) - EVIDENT:
                 break
             evident = search.evident_corners(search.best(family))
-            if evident == search.fitter.corners:
+            if evident == corners:
                 return search, *search.jointed(family, more)
-            sides = [evident] if evident in sides else []
+            corners = evident
         return self, joints, fits
 
     def evident_corners(self, fit: CurveFit) -> tuple[bool, bool]:
