@@ -11,8 +11,8 @@ is no worse than a known one, and, in each part of the time, a plane that is now
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import combinations_with_replacement, pairwise
 from math import asin, cos, isfinite, pi, sin, sqrt
 from typing import Any, NamedTuple, TypeAlias
@@ -78,19 +78,30 @@ class BestCam:
         With its laws.
     objective
         The value of the cycle's objective over the whole cycle; SI units.
-    lower_bound
-        What no other laws of this order and degree in the same times that keep the limits can beat.
-    status
-        "optimal" where the two meet.
     solutions
         The solutions of the single motions, with their proofs.
+    proof
+        What gives the lower bound and the status, which are computed where they are needed.
     """
 
     cam: DiscCam
     objective: float
-    lower_bound: float
-    status: Status
     solutions: tuple[Solution, ...]
+    proof: Callable[[], tuple[float, Status]] = field(repr=False, compare=False)
+
+    @property
+    def lower_bound(self) -> float:
+        """What no other laws of this order and degree in the same times that keep the limits can beat."""
+        return self._proven[0]
+
+    @property
+    def status(self) -> Status:
+        """Optimal where the lower bound meets the objective."""
+        return self._proven[1]
+
+    @kept_property
+    def _proven(self) -> tuple[float, Status]:
+        return self.proof()
 
 
 @dataclass(frozen=True)
@@ -158,13 +169,11 @@ def best_cam(
     given = DiscCam(cycle, prime_radius, follower, turning=turning)
     known = _with_solutions(cycle)
     if limits.proven(given.extremes):  # the best laws without the limits keep them
-        bound = _total(cycle, known)
-        return BestCam(given, cycle.objective, bound, cycle.status, cycle.solutions)
+        return BestCam(given, cycle.objective, cycle.solutions, lambda: (_total(cycle, known), cycle.status))
     _refuse_radius_of_no_law(cycle, given, limits.radius)
-    inner = _solved(cycle, given, limits.in_si, below=True)
-    outer = _solved(cycle, given, limits.in_si, below=False) if not given.contact.linear else inner
-    inner, outer = _with_curvature(cycle, given, limits.radius, inner, outer)
-    plan = cycle.with_solutions([best.solution for best in inner if best.solution is not None])
+    within = _solved(cycle, given, limits.in_si, below=True)
+    inner = _with_curvature(cycle, given, limits.radius, within)
+    plan = _plan(cycle, inner)
     cam = replace(given, motion=plan)
     if broken := limits.broken(cam.extremes):
         raise SolverFailure(
@@ -174,14 +183,21 @@ def best_cam(
                 joined("; ", broken.values()),
             )
         )
-    return cam_of_laws(plan, cam, _total(cycle, outer))
+    return _bounded_by(plan, cam, lambda: _total(cycle, _outer(cycle, given, limits, within, inner)))
 
 
 def cam_of_laws(plan: Plan, cam: DiscCam, lower_bound: float | None = None) -> BestCam:
     """The cam of laws that are known, with the lower bound that their own bounds give unless another is given."""
-    bound = _total(plan, _with_solutions(plan)) if lower_bound is None else lower_bound
-    proven = plan.objective - bound <= 1e-6 * plan.objective
-    return BestCam(cam, plan.objective, bound, Status.OPTIMAL if proven else Status.LOCAL, tuple(plan.solutions))
+    known = _with_solutions(plan)
+    return _bounded_by(plan, cam, lambda: _total(plan, known) if lower_bound is None else lower_bound)
+
+
+def _bounded_by(plan: Plan, cam: DiscCam, bound: Callable[[], float]) -> BestCam:
+    def proof() -> tuple[float, Status]:
+        least = bound()
+        return least, Status.OPTIMAL if plan.objective - least <= 1e-6 * plan.objective else Status.LOCAL
+
+    return BestCam(cam, plan.objective, tuple(plan.solutions), proof)
 
 
 def bounds_hold(plan: Plan, cam: DiscCam, limits: CamLimits) -> bool:
@@ -366,23 +382,31 @@ def _refuse_radius_of_no_law(cycle: Cycle, cam: DiscCam, radius: float | None) -
             )
 
 
-def _with_curvature(
-    cycle: Cycle, cam: DiscCam, radius: float | None, inner: Solved, outer: Solved
-) -> tuple[Solved, Solved]:
-    """The pieces with laws whose profile keeps a least radius in m under a roller, and their lower bound."""
-    if radius is None:
-        return inner, outer
-    met, bounded = [], []
-    for within, beyond in zip(inner, outer, strict=True):
-        curvature = curvature_of(within.piece, cam.contact, radius, cycle.duration)
-        if within.solution is None or beyond.solution is None or curvature is None or not curvature.broken():
-            met.append(within)
+def _with_curvature(cycle: Cycle, cam: DiscCam, radius: float | None, within: Solved) -> Solved:
+    """The pieces with laws whose profile keeps a least radius in m under a roller."""
+    met: Solved = []
+    for known in within:
+        curvature = None if radius is None else curvature_of(known.piece, cam.contact, radius, cycle.duration)
+        if known.solution is None or curvature is None or not curvature.broken():
+            met.append(known)
+            continue
+        best = _solved_with_curvature(known.solution.problem, curvature)
+        met.append(SolvedPiece(replace(known.piece, law=best.law), best))
+    return met
+
+
+def _outer(cycle: Cycle, cam: DiscCam, limits: CamLimits, within: Solved, met: Solved) -> Solved:
+    """The pieces with solutions whose bounds are those of all laws, where others `met` a radius of curvature."""
+    outer = within if cam.contact.linear else _solved(cycle, cam, limits.in_si, below=False)
+    bounded: Solved = []
+    for known, best, beyond in zip(within, met, outer, strict=True):
+        if best is known or best.solution is None or beyond.solution is None or limits.radius is None:
             bounded.append(beyond)
             continue
-        best = _solved_with_curvature(within.solution.problem, curvature)
-        met.append(SolvedPiece(replace(within.piece, law=best.law), best))
-        bounded.append(beyond._replace(bound=bound_under(curvature, beyond.solution.problem, best.objective)))
-    return met, bounded
+        curvature = curvature_of(known.piece, cam.contact, limits.radius, cycle.duration)
+        assert curvature is not None  # noqa: S101 - it was broken
+        bounded.append(beyond._replace(bound=bound_under(curvature, beyond.solution.problem, best.solution.objective)))
+    return bounded
 
 
 def _solved_with_curvature(problem: Problem, curvature: RollerCurvature) -> Solution:

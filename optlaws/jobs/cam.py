@@ -211,6 +211,7 @@ class CamResult:
     known: Plan | None = None
     bound: float | None = None
     counted: bool = False  #: whether the spring of the drive is the least one of these laws
+    circle: Any = None  #: the prime radius of the best laws, where the file gives none, if it is known
 
     @classmethod
     def of_file(cls, spec: CamProblemFile) -> CamResult:
@@ -235,6 +236,7 @@ class CamResult:
         if not sought or not self._needs_spring:
             return self
         best, pressing, last = self, self if self.usual is None else self.usual, (-inf, -inf)
+        circle = self._usual_radius if spec.best == "laws" and spec.radius is None else None
         for turns in range(_SPRINGS):
             spring = pressing.least_spring
             needed = _rounded_up(spring.stiffness), _rounded_up(spring.preload)
@@ -243,7 +245,7 @@ class CamResult:
                 break
             last, texts = sizes, (f"{size:.{DIGITS}g} {unit}" for size, unit in zip(sizes, units, strict=True))
             drive = {**self._linear_drive, **dict(zip(("stiffness", "preload"), texts, strict=True))}
-            best = pressing = CamResult(replace(spec, motion=replace(spec.motion, drive=drive)))
+            best = pressing = CamResult(replace(spec, motion=replace(spec.motion, drive=drive)), circle=circle)
         return replace(best, counted=all(each >= 0.99 * size for each, size in zip(needed, last, strict=True)))
 
     @kept_property
@@ -299,6 +301,8 @@ class CamResult:
     @property
     def _usual_radius(self) -> Any:
         """The least prime circle of the usual law, on which the best laws are sought where the file gives none."""
+        if self.circle is not None:
+            return self.circle
         if self.usual is None:
             raise InputError(
                 f"prime_radius is missing, and the motion cannot have {USUAL}, whose least one could be taken: give "

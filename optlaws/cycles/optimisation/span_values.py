@@ -373,12 +373,17 @@ def bound_by_energy(span: LawSpan, objective: CycleObjective, solution: Solution
     unit = span_value(span, drive, Kind.POWER).unit
     ceiling = min(solution.objective if least else inf, most / unit if most else inf)
     relaxed = _relaxed(span, linear, solution.problem, unit / drive.ratio, ceiling, least=least, loses=not exact)
-    try:
-        bound = synthesize(relaxed).lower_bound
-    except (InfeasibleProblem, SolverFailure):
-        return known
+    bound = _least_of_relaxed(relaxed)
     # laws that are faster than the relaxed ones may be take more power than the one found
-    return max(known, min(bound, solution.objective))
+    return known if bound is None else max(known, min(bound, solution.objective))
+
+
+@lru_cache(maxsize=64)
+def _least_of_relaxed(problem: Problem) -> float | None:
+    try:
+        return synthesize(problem).lower_bound
+    except (InfeasibleProblem, SolverFailure):
+        return None
 
 
 def _bound_of_drive(span: LawSpan, objective: CycleObjective) -> float:
