@@ -53,6 +53,9 @@ _LOAD_UNITS = {
     "force": "N",
     "torque": "N m",
 }
+#: what the input of a mechanism is, by its name
+_INPUTS = {"rack": "pinion", "belt": "pulley", "screw": "screw", "cam": "cam"}
+_INPUTS |= dict.fromkeys(("slider-crank", "four-bar", "toggle"), "crank")
 _WIDE_GAP = 0.05  # between the objective and its bound
 _RICHER = "laws of a higher degree may take less: give degree = 21"
 _BOTH_WAYS = 0.01  # of the work against a load: if more comes back, it acts on the way back too
@@ -452,14 +455,17 @@ def drive_rows(plan: Solved) -> list[Row]:
         rows = [*overload_rows(plan), *plan.sheet.summary()]
     elif plan.drive is not None:
         effort, force, name = plan.effort, FORCE_UNITS[plan.axis], FORCES[plan.axis]
-        driven = "the input of the mechanism" if isinstance(plan.drive, Mechanism) else "the axis"
-        by_cam = f"of a cam there that moves {driven}: peak power over the master's speed"
+        driven, shaft = "the axis", "a cam there that moves"
+        if isinstance(plan.drive, Mechanism):
+            driven = f"the {_INPUTS.get(plan.drive.name, 'input of the mechanism')}"
+            shaft = "a shaft that turns evenly and drives"
+        of = f"of {shaft} {driven}: peak power over the master's speed"
         rows = [
             Row(f"peak {name}", effort.peak_force, force, note=f"at {driven}"),
             Row(f"RMS {name}", effort.rms_force, force, note=f"at {driven}"),
             Row("peak power", effort.peak_power, "W"),
             Row("mean power", effort.mean_power, "W"),
-            Row("peak torque at the master's shaft", effort.shaft_torque(2.0 * pi / plan.duration), "N m", note=by_cam),
+            Row("peak torque at the master's shaft", effort.shaft_torque(2.0 * pi / plan.duration), "N m", note=of),
         ]
         if isinstance(plan.drive, Mechanism):
             rows += [

@@ -97,9 +97,10 @@ def test_torques_at_two_shafts_say_of_which_they_are(page: Page, served: Server)
     asked["axis"] = [asked["axis"][1]]
     rows = {row["name"]: row for row in served.ask("machine", {"study": asked, "axis": 0})["rows"]}
     at_input, at_master = rows["peak torque"], rows["peak torque at the master's shaft"]
-    driven = "the input of the mechanism"
+    driven = "the crank"
     assert at_input["note"] == rows["RMS torque"]["note"] == f"at {driven}"
-    assert at_master["note"] == f"of a cam there that moves {driven}: peak power over the master's speed"
+    by_shaft = f"a shaft that turns evenly and drives {driven}"
+    assert at_master["note"] == f"of {by_shaft}: peak power over the master's speed"
     assert at_master["values"] == pytest.approx([rows["peak power"]["values"][0] * 0.7 / (2.0 * pi)])
     assert at_master["values"] != pytest.approx(at_input["values"], rel=0.1)
     go(page, served.link(machine=asked, view="machine", axis=0))
