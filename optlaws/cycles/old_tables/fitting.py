@@ -117,7 +117,7 @@ def fits_of(
     if explaining and rough.criterion(rough.best(plain)) < rough.criterion(best):
         refined = [_refined(fitter, fit) for fit in rough.accepted(polynomials)]
         if likely(min(fit.squares for fit in refined), len(places)):
-            return rough.with_jumps(refined)
+            return refined
     at = best.start, best.stop
     if joints:
         joints = rough.fitter.placed(at, joints, best.pieces)
@@ -126,8 +126,25 @@ def fits_of(
     near = float(np.median(np.diff(places)))
     # of rows of which some were left out in the search, fewer pieces tell no more than these did
     fewest = best.pieces if rough.rows < len(places) else 1
-    accepted = whole.accepted(whole.climbed(joints, at, near, starts, fewest=fewest))
-    return whole.with_jumps(accepted)
+    return whole.accepted(whole.climbed(joints, at, near, starts, fewest=fewest))
+
+
+def with_jumps(places: Array, heights: Array, noise: Array, fits: Sequence[CurveFit]) -> Sequence[CurveFit]:
+    """Fits that know whether the acceleration jumps at a rest: whether the first one without is far less likely."""
+    fit = fits[0]
+    at_rests = np.array([fit.start, fit.stop])[[end.line is not None for end in fit.ends]]
+    if fit.contact > 2 or not np.any(np.abs(fit.values(at_rests, 2)) > 3.0 * fit.deviation(at_rests, 2)):
+        return fits
+    fitter = LeastSquares(
+        places, heights, noise, fit.ends, None, fine=ROUGH, degree=fit.degree, contact=3, corners=fit.corners
+    )
+    near, price = 4.0 * float(np.median(np.diff(places))), log(len(places))
+    for pieces in range(fit.pieces, fit.pieces + _MORE):
+        at = fitter.ends_of(fit.start, fit.stop, fit.joints, pieces, near)
+        smooth = fitter.solved(*at, fit.joints, pieces, whole=True)[2]
+        if smooth is not None and smooth.criterion(price) <= fit.criterion(price) + EVIDENT:
+            return fits
+    return [replace(each, jumps=True) for each in fits]
 
 
 def likely(squares: float, rows: int) -> bool:
@@ -286,21 +303,6 @@ class _Search:
                 break
             joints, fits = more, family
         return self.smoothed(joints, fits)
-
-    def with_jumps(self, fits: Sequence[CurveFit]) -> list[CurveFit]:
-        """Fits that know whether the acceleration jumps at a rest: whether the first one without is far less likely."""
-        fit = fits[0]
-        places = np.array([fit.start, fit.stop])[[end.line is not None for end in self.fitter.ends]]
-        if fit.contact > 2 or not np.any(np.abs(fit.values(places, 2)) > 3.0 * fit.deviation(places, 2)):
-            return list(fits)
-        fitter = replace(self.fitter, degree=fit.degree, contact=3, fine=ROUGH)
-        near = 4.0 * float(np.median(np.diff(fitter.x)))
-        for pieces in range(fit.pieces, fit.pieces + _MORE):
-            at = fitter.ends_of(fit.start, fit.stop, fit.joints, pieces, near)
-            smooth = fitter.solved(*at, fit.joints, pieces, whole=True)[2]
-            if smooth is not None and self.criterion(smooth) <= self.criterion(fit) + EVIDENT:
-                return list(fits)
-        return [replace(each, jumps=True) for each in fits]
 
     def joined(
         self, fits: Sequence[CurveFit], joints: tuple[Joint, ...], pieces: int

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -14,6 +15,8 @@ from optlaws.numbers import Array
 
 #: rows more than coefficients at least: a spline through all of them may be anything between
 _LEFT = 2
+#: numbers in a matrix that is factored at most: from some 9,000 on OpenBLAS takes several threads, which cost more here
+_DENSE = 8_000
 #: rows in searches for joints, which need not be all
 _SEARCHED = 160
 #: a smoother joint is preferred if it lowers the sum of squares by so much of what the best one does
@@ -51,15 +54,19 @@ def _nearly_orthogonal(u: Array, contact: int, degree: int) -> Array:
 def _condensed(knots: Array, places: Array, heights: Array, weights: Array, degree: int) -> Array:
     """Few equations for the coefficients of a spline, with right sides, whose squares sum up as those of all rows do.
 
-    The rows of a piece have a column for each of its B-splines and one for the heights: their triangular factor does.
+    The rows of a piece have a column for each of its B-splines and one for the heights: the triangular factors of not
+    too many of them do.
     """
     width, count = degree + 1, len(knots) - degree - 1
     matrix = BSpline.design_matrix(places, knots, degree)
-    firsts, starts, counts = np.unique(matrix.indices[::width], return_index=True, return_counts=True)
-    piece = np.repeat(np.arange(len(firsts)), counts)
-    blocks = np.zeros((len(firsts), max(counts.max(initial=0), width + 1), width + 1))
-    rows = np.column_stack([matrix.data.reshape(-1, width), heights]) * weights[:, None]
-    blocks[piece, np.arange(len(places)) - starts[piece]] = rows
+    first, at = matrix.indices[::width], np.arange(len(places))
+    begun = np.flatnonzero(np.diff(first, prepend=-1))
+    since = at - np.repeat(begun, np.diff(begun, append=len(places)))
+    starts = np.flatnonzero(since % (_DENSE // (width + 1)) == 0)
+    counts, firsts = np.diff(starts, append=len(places)), first[starts]
+    block = np.repeat(np.arange(len(starts)), counts)
+    blocks = np.zeros((len(starts), max(counts.max(initial=0), width + 1), width + 1))
+    blocks[block, at - starts[block]] = np.column_stack([matrix.data.reshape(-1, width), heights]) * weights[:, None]
     factors: Array = np.asarray(np.linalg.qr(blocks, mode="r"))
     few = np.zeros((len(firsts), width + 1, count + 1))
     columns = np.column_stack([firsts[:, None] + np.arange(width), np.full(len(firsts), count)])
@@ -105,19 +112,16 @@ class LeastSquares:
         """The sum of squares, the number of parameters, and with `whole` the fit."""
         joints = tuple(joint for joint in joints if start < joint.place < stop)
         knots = _knots(start, stop, joints, pieces, self.degree)
-        inside = (self.x >= start) & (self.x <= stop)
-        outside = 0.0
-        for end, away in ((self.ends[0], self.x < start), (self.ends[1], self.x > stop)):
-            if end.line is not None:
-                outside += float((((self.y[away] - end.value(self.x[away])) / self.noise[away]) ** 2).sum())
+        low, high = int(self.x.searchsorted(start)), int(self.x.searchsorted(stop, side="right"))
+        outside = float(self._about_lines[0][low] + self._about_lines[1][high])
         turned, coefficients = self._known(knots)
         free = turned.shape[1]
         parameters = free + len(joints) + sum(end.line is not None for end in self.ends)
-        if int(inside.sum()) < free + _LEFT:
+        if high - low < free + _LEFT:
             return np.inf, parameters, None
-        few = _condensed(knots, self.x[inside], self.y[inside], 1.0 / self.noise[inside], self.degree)
-        left = few[:, -1:] - few[:, :-1] @ coefficients[:, None]
-        r: Array = np.asarray(np.linalg.qr(np.hstack([few[:, :-1] @ turned, left]), mode="r"))
+        few = self._equations(knots, slice(low, high))
+        left = few[:, -1] - few[:, :-1] @ coefficients
+        r: Array = np.asarray(np.linalg.qr(np.column_stack([few[:, :-1] @ turned, left]), mode="r"))
         size = np.abs(np.diag(r)[:free])
         if len(r) < free or (free and size.min() <= 1e-10 * size.max()):
             return np.inf, parameters, None
@@ -135,6 +139,22 @@ class LeastSquares:
             parameters,
             CurveFit(spline, factor, joints, squares, parameters, len(self.x), self.ends, pieces, self.contact),
         )
+
+    @cached_property
+    def _about_lines(self) -> tuple[Array, Array]:
+        """The sums of squares of the rows before each one about the line before, and of those from it on behind."""
+        before, behind = (
+            np.zeros(len(self.x)) if end.line is None else ((self.y - end.value(self.x)) / self.noise) ** 2
+            for end in self.ends
+        )
+        return np.append(0.0, np.cumsum(before)), np.append(np.cumsum(behind[::-1])[::-1], 0.0)
+
+    def _equations(self, knots: Array, rows: slice) -> Array:
+        """Equations for the coefficients of a spline with right sides: of each row, or few that stand for many rows."""
+        x, y, weights = self.x[rows], self.y[rows], 1.0 / self.noise[rows]
+        if len(x) * len(knots) > _DENSE:
+            return _condensed(knots, x, y, weights, self.degree)
+        return np.column_stack([basis(knots, x, self.degree), y]) * weights[:, None]
 
     def ends_of(
         self, start: float, stop: float, joints: Sequence[Joint], pieces: int, width: float | None = None
@@ -249,14 +269,15 @@ class LeastSquares:
     def _known(self, knots: Array) -> tuple[Array, Array]:
         """A matrix and a vector that make all coefficients of a spline out of those that its ends leave free."""
         count, degree = len(knots) - self.degree - 1, self.degree
-        turned, coefficients = np.eye(count), np.zeros(count)
-        fixed = np.zeros(count, dtype=bool)
+        coefficients, fixed = np.zeros(count), np.zeros(count, dtype=bool)
         contacts = [1 if corner else self.contact for corner in self.corners]
         for end, first, contact in zip(self.ends, (0, count - contacts[1]), contacts, strict=True):
             if end.line is not None:
                 # the coefficients of a straight line are its positions at the means of knots
-                for i in range(first, first + contact):
-                    fixed[i], coefficients[i] = True, end.value(knots[i + 1 : i + 1 + degree].mean())
+                means = np.convolve(knots[first + 1 : first + contact + degree], np.full(degree, 1.0 / degree), "valid")
+                fixed[first : first + contact] = True
+                coefficients[first : first + contact] = end.value(means)
+        turned = np.eye(count)
         if self.advance is not None:
             for nu in range(self.continuity + 1):
                 first, last = (basis(knots, knots[[at]], degree, nu)[0] for at in (0, -1))

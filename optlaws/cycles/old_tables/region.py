@@ -12,7 +12,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from optlaws.cycles.old_tables.curve_fit import DEGREE, CurveFit, End, interpolation
-from optlaws.cycles.old_tables.fitting import EVIDENT, SIMPLE, UNRESOLVED, fits_of, likely
+from optlaws.cycles.old_tables.fitting import EVIDENT, SIMPLE, UNRESOLVED, fits_of, likely, with_jumps
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
 from optlaws.cycles.old_tables.rests_and_lines import FEWEST, NOISE_ROOM, Line, lines_of
 from optlaws.cycles.old_tables.samples import MEDIAN, Samples, gaps_of, off_both_sides, turning_points
@@ -432,7 +432,8 @@ class Region:
         chain = chains[0]
         rows, variance = len(self.x), chain.squares / max(len(self.x) - chain.free, 1)
         good = variance * (1.0 + 3.0 * np.sqrt(2.0 / rows))
-        simple = [fit for fit in fits if _is_simple([fit]) and fit.variance <= good][:1]
+        near = [fit for fit in fits if _is_simple([fit]) and fit.variance <= good][:1]
+        simple = with_jumps(self.x, self.y, self.noise, near) if near else []
         jumps = [chain.jumps(nu) for nu in (1, 2)]
         for i, name in enumerate(chain.names):
             if not name:
@@ -463,7 +464,8 @@ class Region:
             inside = (self.x >= self.about[0]) & (self.x <= self.about[1])
             fits = [interpolation(self.x[inside], self.y[inside], self.ends, self.advance)]
             most = [np.inf] * 3
-        fits = self._begun_at_turn(fits, places)
+        else:
+            fits = with_jumps(self.x, self.y, self.noise, self._begun_at_turn(fits, places))
         best = fits[0]
         nodes, laws = [best.start, *(_turn(best, place) for place in places[1:-1]), best.stop], list(near)
         for i, (low, high) in enumerate(pairwise(nodes)):

@@ -22,9 +22,10 @@ _SHORTEST_REST = 1.0 / 200.0
 _BENT = 14.0
 #: rows of a window in which a motion is looked at for constant velocity, and the share of rows that one has at least
 _WINDOW, _SHARE = 12, 0.06
-#: where the moves beside a rest begin within its run, from -1 to 1, and how long the rest is there at least
-_TAILS = np.linspace(-1.0, -0.1, 7)
-_RESTING = 0.5
+#: where a rest begins and ends within its run from -1 to 1, of which it has a quarter at least
+_TAILED = np.array(
+    [(low, high) for low in np.linspace(-1.0, -0.1, 7) for high in np.linspace(1.0, 0.1, 7) if high - low >= 0.5]
+)
 
 
 @dataclass(frozen=True)
@@ -97,22 +98,21 @@ def _is_rest(x: Array, y: Array, noise: float, digit: float) -> bool:
     u = 2.0 * (x - 0.5 * (x[0] + x[-1])) / (x[-1] - x[0])
     size = max(noise, digit / np.sqrt(12.0))
 
-    def squares(columns: Array) -> float:
-        left = y - columns @ np.linalg.lstsq(columns, y, rcond=None)[0]
-        return float(left @ left / size**2)
-
     ones = np.ones((count, 1))
-    flat, bent = squares(ones), squares(u[:, None] ** np.arange(5))
+    polynomials = u[:, None] ** np.arange(5)
+    flat, bent = (_squares_left(columns, y, size) for columns in (ones, polynomials))
     if flat - bent <= _BENT:
         return True
-    tails = min(
-        squares(np.column_stack([ones, np.maximum(low - u, 0.0) ** power, np.maximum(u - high, 0.0) ** power]))
-        for power in (2, 3)
-        for low in _TAILS
-        for high in -_TAILS
-        if high - low >= _RESTING
-    )
-    return tails < bent + 3.0
+    sides = np.maximum(_TAILED[:, :1] - u, 0.0), np.maximum(u - _TAILED[:, 1:], 0.0)
+    tails = (np.stack([np.ones_like(sides[0]), *(side**power for side in sides)], axis=-1) for power in (2, 3))
+    return bool(min(_squares_left(columns, y, size).min() for columns in tails) < bent + 3.0)
+
+
+def _squares_left(columns: Array, y: Array, size: float) -> Array:
+    """The sum of squares, in so many of a size, that columns leave of rows, or each of several matrices."""
+    normal, side = np.swapaxes(columns, -1, -2) @ columns, (y - y.mean()) @ columns
+    solved = (np.linalg.pinv(normal, rcond=1e-12, hermitian=True) @ side[..., None])[..., 0]
+    return np.asarray((((columns @ solved[..., None])[..., 0] - (y - y.mean())) ** 2).sum(axis=-1) / size**2)
 
 
 def _levelled(rests: Sequence[Line], noise: float) -> list[Line]:
