@@ -145,7 +145,7 @@ class _Share(NamedTuple):
     """What a law of a cycle has of its objective: below, above, and what no law of its problem is below; SI units."""
 
     duration: float
-    ends: tuple[Fraction, ...]
+    ends: tuple[Fraction, ...] | None
     least: Fraction | None
 
 
@@ -160,9 +160,10 @@ def _objective_of_laws(plan: Any, known: Sequence[Verification], stated: Data, w
     proven = None
     if shares is not None:
         total = partial(_total, shares, plan.duration, objective)
-        claim = near("objective", number(stated, "objective"), (total(0, -inf), total(1, inf)), 0.0)
-        # what is of a drive is computed again in doubles where no law determines it alone
-        yield from [claim] if claim.proven or objective.kind.order else []
+        if all(share.ends is not None for share in shares):
+            claim = near("objective", number(stated, "objective"), (total(0, -inf), total(1, inf)), 0.0)
+            # what is of a drive is computed again in doubles where no law determines it alone
+            yield from [claim] if claim.proven or objective.kind.order else []
         known_of_all = all(share.least is not None for share in shares)
         proven = Fraction(total(None, -inf)) if known_of_all else None
     if stated.get("lower_bound") is None:
@@ -227,9 +228,8 @@ def _alike(*data: Any) -> bool:
 
 def _total(shares: Sequence[_Share], period: float, objective: Any, end: int | None, side: float) -> float:
     """An objective of an end of all shares, or of what no law is below, rounded to a side."""
-    sizes = [
-        (Fraction(share.duration), (share.least or Fraction(0)) if end is None else share.ends[end]) for share in shares
-    ]
+    every = [share.least if end is None or share.ends is None else share.ends[end] for share in shares]
+    sizes = [(Fraction(share.duration), size or Fraction(0)) for share, size in zip(shares, every, strict=True)]
     if objective.mean:
         square = sum((time * size**2 for time, size in sizes), Fraction(0)) / Fraction(period)
         return nextafter(sqrt(rounded_up(square) if side > 0.0 else rounded_down(square)), side)
@@ -262,9 +262,9 @@ def _shares(plan: Any, known: Sequence[Verification], bounds: Sequence[float | N
         shares.append(_Share(piece.duration, ends, least[0] if least else None if value.summed else Fraction(0)))
     for piece in plan.specification.layout.pieces:
         ends = (_of_derivative if objective.kind.order else _at_rest)(piece, objective)
-        if ends is None:
+        if ends is None and objective.kind.name != "FORCE":
             return None
-        shares.append(_Share(piece.duration, ends, ends[0]))
+        shares.append(_Share(piece.duration, ends, ends[0] if ends else Fraction(0)))
     return shares
 
 

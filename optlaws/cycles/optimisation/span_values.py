@@ -497,6 +497,7 @@ def is_certified(layout: Layout, solved: Laws, objective: CycleObjective) -> boo
     kind, drive = objective.kind, objective.drive
     if kind is Kind.LOAD or kind.order:
         return kind is not Kind.LOAD
+    most = 0.0
     for span, (_, solution) in zip(layout.spans, solved, strict=False):
         value = span_value(span, drive, kind, mean=objective.mean)
         minimised = solution.problem.objective == value.objective.expression()
@@ -506,8 +507,17 @@ def is_certified(layout: Layout, solved: Laws, objective: CycleObjective) -> boo
         proven = value.unit * solution.lower_bound + value.constant if minimised else 0.0
         if span_bound(span, solution, objective) > proven * (1.0 + AGREEMENT):
             return False
-    resting = kind in {Kind.POWER, Kind.ENERGY} or (kind is Kind.FORCE and known_drive(drive).linear is not None)
-    return all(resting and not piece.stroke for piece in layout.pieces)
+        most = max(most, proven)
+    if kind is Kind.FORCE:
+        whole = known_drive(drive)
+        # of a piece whose force is no line as little is proven as nothing
+        enough = most * (AGREEMENT if objective.mean else 1.0)
+        return all(
+            (whole.linear is not None and not piece.stroke)
+            or size_of(piece, kind, whole, mean=objective.mean) <= enough
+            for piece in layout.pieces
+        )
+    return all(kind in {Kind.POWER, Kind.ENERGY} and not piece.stroke for piece in layout.pieces)
 
 
 def is_exact(span: LawSpan, objective: CycleObjective) -> bool:

@@ -35,6 +35,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.tolerances import INTEGRATION, STATED_BOUND
 
 _PHASE_WEIGHT = 1e-9  # of what is minimised: the price of the time where the torque at rest alone bounds it
+_MEAN_WEIGHT = 1e-5  # likewise, where the mean of the load on a part of the way is what bounds it
 _MOST_PHASE_GAP = 1e-2  # of a limit in the phase plane: what leaves less is not mended by more fall
 _SMALL_PHASE_GAP = 1e-6  # of a limit: more is looked for on finer elements
 
@@ -417,7 +418,10 @@ def _certificates(standing: Standing, motion: PhaseOptimum) -> Iterator[tuple[Po
     if plane.peak is not None:
         for way, ends, means in _mean_loads(plane.peak):
             if np.max(means) > 0.0:
-                yield even_price(plane, plane.peak, way, *ends[int(np.argmax(means))].tolist()), little, 0.0, True
+                even = even_price(plane, plane.peak, way, *ends[int(np.argmax(means))].tolist())
+                yield even, little, 0.0, True
+                # a greater weight keeps slow motions from costing what the fall of the price takes
+                yield even, _MEAN_WEIGHT * abs(motion.objective), 0.0, True
     elif standing.level:
         yield none, little, 0.0, True
 

@@ -44,7 +44,7 @@ _CELLS = 160  # in the whole, besides a few in every piece
 _FEW = 3
 _ENDS_ROUNDING = 64.0 * ROUNDOFF  # cells are a little wider than they are
 #: pieces of a potential that gives a torque the same price everywhere, and their degree
-_EVEN, _DEGREE = 64, 4
+_EVEN, _DEGREE = 256, 4
 #: cells of which little is proven: in how many parts they are divided, how often, how many may be
 _PARTS, _DEEPEST, _MOST_WEAK = 4, 6, 60
 

@@ -42,6 +42,18 @@ def test_a_load_that_drives_has_a_bound_by_its_work() -> None:
     bound = least_peak_torque(drive, 0.0, 2.0 * np.pi, 0.8)
     assert bound == pytest.approx(braked, rel=1e-4)
     assert bound > 18.0
+    assert 0.999 * bound < drive.limit("peak torque", "0 deg", "360 deg", "0.8 s").value < bound
+
+
+def test_a_flywheel_that_bears_a_force_has_a_proven_bound() -> None:
+    """The knee's torque is five times as great as that of the motor; no certificate was found before."""
+    force = {"0 deg": 0.0, "150 deg": 0.0, "175 deg": 1.5e3, "200 deg": 1.5e3, "215 deg": 0.0, "360 deg": 0.0}
+    lengths = {"crank": "48 mm", "rod": "230 mm", "upper": "180 mm", "lower": "190 mm", "frame": "270 mm"}
+    bodies = {"crank": "0.15 kg m^2", "ram": "25 kg"}
+    press = toggle(lengths, bodies=bodies, loads=Loads(force, over="input"))
+    known = least_peak_torque(Drive.of_input(press), 0.0, 2.0 * np.pi, 0.9)
+    assert press.load(np.linspace(0.0, 2.0 * np.pi, 1001)).max() > 5.0 * known
+    assert 0.997 * known < press.limit("peak torque", "0 deg", "360 deg", "0.9 s").value < known
 
 
 @pytest.mark.parametrize(("drive", "degree"), [(KNEE, 3), (DRIVEN, 2)], ids=["knee", "geared"])
