@@ -25,6 +25,7 @@ from optlaws.synthesis.families.cone import SumOfSquares, sum_of_squares
 from optlaws.synthesis.families.family import LinearFamily, NonlinearFamily, RowJet, WholeLawFamily, last_result
 from optlaws.synthesis.families.formula_slopes import FactorTables, Slopes
 from optlaws.synthesis.families.peaks import greatest
+from optlaws.synthesis.families.piece_series import sides_of
 from optlaws.tolerances import LEAST_ENERGY, ROUNDOFF
 
 _FORMULA_RESOLVED = 1e-13  # of the greatest value: what the last coefficients of a formula along a law leave
@@ -282,7 +283,7 @@ class CurvedFamily(FormulaFamily):
         count = None if self.degree is None else self.degree + 1
         stretches = [ends for stretch in self._stretches for ends in pairwise(self._cut_at_knots(x, stretch))]
         inner = [candidates(lambda u: self.value(x, u), ends, count) for ends in stretches]
-        return np.concatenate([*inner, *(np.array(ends) for ends in stretches), self.edges])
+        return np.concatenate([*inner, *(np.array(ends) for ends in stretches), self._ends])
 
     @kept_property
     def _knots(self) -> Together:
@@ -300,11 +301,19 @@ class CurvedFamily(FormulaFamily):
 
         return sorted({*ends, *sign_changes(values, ends, _LOOKS + len(self.slack)).tolist()})
 
-    @property
+    @kept_property
+    def _ends(self) -> Array:
+        """The edges; where a part jumps there, the places just before and just after each."""
+        edges = np.array(self.edges)
+        return sides_of(edges) if any(part.jumps for _, part in self.parts) else edges
+
+    @kept_property
     def _stretches(self) -> list[tuple[float, float]]:
         """Between which u of the domain it is smooth."""
         low, high = self.domain
-        return [(max(a, low), min(b, high)) for b, a in pairwise(self.edges) if a < high and b > low]
+        ends = np.sort(self._ends).tolist()
+        pairs = pairwise(ends) if len(ends) == len(self.edges) else zip(ends[::2], ends[1::2], strict=True)
+        return [(max(a, low), min(b, high)) for a, b in pairs if a < high and b > low][::-1]
 
     def nodes(self) -> Array | None:
         """The nodes of the formula's parts, or as many as its degree needs."""
@@ -318,8 +327,8 @@ class CurvedFamily(FormulaFamily):
         return np.unique(np.concatenate([a + (b - a) * (local + 1.0) / 2.0 for a, b in within]))
 
     def pinned(self, u: Array) -> NDArray[np.bool_]:
-        """Whether u is an edge."""
-        return np.isin(u, self.edges)
+        """Whether u is an edge, or a side of one."""
+        return np.isin(u, self._ends)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

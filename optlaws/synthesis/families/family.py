@@ -15,8 +15,8 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes, product
 from optlaws.synthesis.families.peaks import greatest, power_peaks
-from optlaws.synthesis.families.piece_series import EvenGegenbauer, PieceSeries
-from optlaws.tolerances import AT_END, BESIDE_BREAK, ROW_ROUNDING
+from optlaws.synthesis.families.piece_series import EvenGegenbauer, PieceSeries, sides_of
+from optlaws.tolerances import AT_END, ROW_ROUNDING
 
 _END_OF_U = 1e-9  # of u: a place so near to the end is the end
 _NO_NORM = 1e-12  # at standstill and in uniform motion a norm has no slope
@@ -254,10 +254,7 @@ class LinearFamily(SeriesFamily):
     @kept_property
     def corners(self) -> Array:
         """The breaks; where f jumps there, the places just before and just after each."""
-        breaks = self.table.breaks
-        if not self.jumps:
-            return breaks
-        return np.concatenate([breaks[[0, -1]], breaks[1:-1] + BESIDE_BREAK, breaks[1:-1] - BESIDE_BREAK])
+        return sides_of(self.table.breaks) if self.jumps else self.table.breaks
 
     def pinned(self, u: Array) -> NDArray[np.bool_]:
         """Whether u is a corner between pieces."""

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import basis_values, even_gegenbauer_jet, product, real_parts_of_roots
+from optlaws.tolerances import BESIDE_BREAK
 
 _FLAT_SLOPE = 1e-9  # of a series: a slope that is less is flat
 _SHARING = 8  # points of a piece, in the mean, from which on no copy of its series is made for each
@@ -33,6 +34,15 @@ def widened(columns: NDArray[Any], size: int) -> NDArray[Any]:
     wide = np.zeros((*columns.shape[:-1], size + 1), columns.dtype)
     wide[..., : columns.shape[-1] - 1], wide[..., -1] = columns[..., :-1], columns[..., -1]
     return wide
+
+
+def sides_of(breaks: Array) -> Array:
+    """The ends, and the places just before and just after each break between them, of functions that jump there.
+
+    >>> sides_of(np.array([1.0, 0.25, -1.0])).round(12).tolist()
+    [1.0, -1.0, 0.25, 0.25]
+    """
+    return np.concatenate([breaks[[0, -1]], breaks[1:-1] + BESIDE_BREAK, breaks[1:-1] - BESIDE_BREAK])
 
 
 @dataclass(frozen=True, eq=False)

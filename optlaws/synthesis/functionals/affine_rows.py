@@ -84,7 +84,7 @@ def _at(factor: Formula, k: Array) -> Array:
 
 def rows(space: LawSpace, side: Side, slack: Array, bound: float) -> LinearFamily:
     """Rows s f <= slack . x + bound on the side's part of the interval."""
-    motion, domain = side.motion, (1.0 - 2.0 * side.motion.stop, 1.0 - 2.0 * side.motion.start)
+    motion, domain = side.motion, space.part(side.motion.start, side.motion.stop, side.motion.orders)
     plain = motion.constant_weights()
     if plain is not None and not plain[1] and plain[0]:
         weights, lowest = plain[0], min(plain[0])

@@ -81,7 +81,7 @@ def branch_rows(space: LawSpace, branch: Branch, slack: Array, bound: float) -> 
         slack,
         bound,
         (branch.sign,),
-        (1.0 - 2.0 * motion.stop, 1.0 - 2.0 * motion.start),
+        space.part(motion.start, motion.stop, motion.orders),
         formula=motion.formula,
         parts=parts,
         tangents=(branch.sign,) if branch.convex else (),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Iterable
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -23,6 +23,7 @@ from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.families.piece_series import PieceSeries, widened
 from optlaws.synthesis.spaces.divided_rows import below_peak
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+from optlaws.tolerances import BESIDE_BREAK
 
 _CACHED = 32
 
@@ -180,6 +181,12 @@ class LawSpace(ABC):
     def edges(self) -> tuple[float, ...]:
         """The u between which every function is one polynomial, descending, in the domain."""
         return tuple(self.pieces(2).breaks.tolist())
+
+    def part(self, start: float, stop: float, orders: Iterable[int]) -> tuple[float, float]:
+        """The u of a part of the interval, up to just before its end where a derivative of one of the orders jumps."""
+        low, high = 1.0 - 2.0 * stop, 1.0 - 2.0 * start
+        jumping = low < high and low in self.edges[1:-1] and any(map(self.jumps, orders))
+        return (low + BESIDE_BREAK if jumping else low), high
 
     def jumps(self, nu: int) -> bool:
         """Whether the derivative of order nu may jump at a break."""

@@ -36,6 +36,7 @@ from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.sublevel_bounds import Number, Sublevel
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
+from optlaws.tolerances import BESIDE_BREAK
 from optlaws.verification.enclosing.balls import ball, upper
 from optlaws.verification.exact.law import DerivativePeak, ExactLaw, OfFormula, OfMachine, known, of_derivatives
 from optlaws.verification.exact.motion_formulas import (
@@ -53,6 +54,7 @@ from optlaws.verification.machines.outputs import OutputRows
 from optlaws.verification.machines.residuals import exact_residual
 
 _NEAR = Fraction(1, 10**9)
+_BESIDE = Fraction(BESIDE_BREAK) / 2
 #: what makes up for the rounding of a few operations in doubles
 _ROUNDED = 1 + Fraction(1, 2**40)
 
@@ -246,7 +248,7 @@ class ExactRows:
         start, stop = Fraction(motion.start), Fraction(motion.stop)
 
         def make(contact: Contact, k: Fraction) -> BallRow:
-            return limit.row(tangent_columns(self.space, branch, contact.direction, _clamped(k, start, stop)))
+            return limit.row(tangent_columns(self.space, branch, contact.direction, self._within(k, start, stop)))
 
         self._add(branch.name, make, (branch.sign,))
 
@@ -279,7 +281,7 @@ class ExactRows:
         start, stop = Fraction(motion.start), Fraction(motion.stop)
 
         def values(k: Fraction) -> list[arb]:
-            return formula_columns(self.space, motion, _clamped(k, start, stop))
+            return formula_columns(self.space, motion, self._within(k, start, stop))
 
         self._everywhere(name, values, signs, limit)
 
@@ -453,6 +455,16 @@ class ExactRows:
         for sign in (1.0, -1.0):
             self._add(names.window_side(name, sign), make, (sign,))
 
+    def _within(self, k: Fraction, start: Fraction, stop: Fraction) -> Fraction:
+        """A place on a formula's part; LookupError where it is beyond the ends by more than rounding.
+
+        What the formula has beyond a break where its part ends says nothing of the part.
+        """
+        if start < stop and not start - _NEAR <= k <= stop + _NEAR:
+            raise LookupError
+        last = stop - _BESIDE if start < stop and stop in self.space.breaks[1:-1] else stop
+        return min(max(k, start), last)
+
 
 def _exact(value: float) -> Number:
     return Fraction(value) if isfinite(value) else value
@@ -482,10 +494,3 @@ def _is_bounded(power: PowerConstant, problem: Problem) -> bool:
     """Whether the constant is bounded from above, by the objective or a number: only then rows contain its root."""
     high = (constant for constant, limits in problem.bounded if isfinite(limits.high))
     return any(constant == power for constant in (*(leaf for _, leaf in leaves(problem.objective)), *high))
-
-
-def _clamped(k: Fraction, start: Fraction, stop: Fraction) -> Fraction:
-    """A place on a part of the interval; LookupError where it is beyond the ends by more than rounding."""
-    if start < stop and not start - _NEAR <= k <= stop + _NEAR:
-        raise LookupError
-    return min(max(k, start), stop)

@@ -1,5 +1,7 @@
 """Families of rows: derivatives and slopes against differences, cones, kinks and peaks."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -7,11 +9,21 @@ from hypothesis import strategies as st
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from optlaws import Chebyshev, Problem, at_most, drive_torque, four_bar, slider_crank, synthesize
+from optlaws import Chebyshev, Pieces, Problem, at_most, drive_torque, four_bar, slider_crank, synthesize
 from tests.contracts.test_families import random_cone
 from tests.internals.formulas import NUMPY, derivative, evaluate, read
-from tests.internals.synthesis import KinkedIntegralFamily, Slopes, model_of, peaks, stationary_places, tabulated
+from tests.internals.synthesis import (
+    CurvedFamily,
+    KinkedIntegralFamily,
+    Slopes,
+    model_of,
+    peaks,
+    stationary_places,
+    tabulated,
+)
 from tests.synthesis.judge import judge
+
+Array = NDArray[np.float64]
 
 
 @given(st.integers(0, 10**6), st.floats(-1.0, 1.0), st.floats(0.0, 6.3))
@@ -44,6 +56,32 @@ def test_a_vibration_that_can_vanish_does(problem: Problem) -> None:
     assert solution.objective < 1e-11
     assert solution.lower_bound == 0.0
     judge(solution)
+
+
+# --- jumps ---
+
+
+@pytest.mark.parametrize(
+    ("text", "stop", "formula"),
+    [
+        ("peak(c^2 + b)", 1.0, lambda k, b, c: c**2 + b + 0.0 * k),
+        ("peak(norm(c, b))", 1.0, lambda k, b, c: np.hypot(c, b) + 0.0 * k),
+        ("peak(c^2/(1 + k), stop=0.3)", 0.3, lambda k, b, c: c**2 / (1.0 + k) + 0.0 * b),
+    ],
+)
+def test_a_formula_is_looked_at_on_both_sides_of_a_jump(
+    text: str, stop: float, formula: Callable[[Array, Array, Array], Array]
+) -> None:
+    problem = Problem(order=2, basis=Pieces([0.0, 0.3, 0.7, 1.0], 4, 1), minimise=text, symmetric=False)
+    model = model_of(problem)
+    family = next(one for one in model.program.families if isinstance(one, CurvedFamily) and 1.0 in one.signs)
+    beside = np.array([0.3 - 1e-12, 0.3 + 1e-12, 0.7 - 1e-12, 0.7 + 1e-12])
+    k = np.sort([*np.linspace(0.0, stop - 1e-12, 4001), *beside[beside < stop]])
+    for seed in range(20):
+        x = 0.3 * np.random.default_rng(seed).normal(size=len(family.slack))
+        law = model.space.law(x[: model.space.terms])
+        greatest = (family.extremes(x)[2].max() + family.right_side(x)) * family.unit
+        assert greatest == pytest.approx(formula(k, law(k, 1), law(k, 2)).max(), rel=1e-6)
 
 
 # --- kinks ---
@@ -140,7 +178,6 @@ def test_each_kink_is_a_simple_root_of_its_switch(text: str) -> None:
 # --- slopes from tables ---
 
 
-Array = NDArray[np.float64]
 CRANK = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
 LINKAGE = four_bar("0.1 m", "0.3 m", "0.25 m", "0.35 m", bodies={"crank": "0.005 kg m^2", "rocker": "0.05 kg m^2"})
 TORQUES = {

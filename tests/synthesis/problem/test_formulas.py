@@ -13,6 +13,7 @@ from optlaws import (
     BSplines,
     Chebyshev,
     InputError,
+    Pieces,
     Problem,
     Range,
     SolverFailure,
@@ -286,3 +287,32 @@ def test_symmetric_laws_of_uneven_formulas_survive_text() -> None:
     problem = Problem(order=2, minimise="rms((1 + k)*c)", symmetric=True)
     assert eval(repr(problem), {"Problem": Problem, "Chebyshev": Chebyshev}) == problem  # noqa: S307 - a repr of our own
     assert Problem(order=2, minimise="rms((1 + k)*c)") != problem
+
+
+@pytest.mark.parametrize(
+    ("asked", "optimum"),
+    [
+        ({"windows": (Window("1*c", low=-1.0, high=1.0, start=0.0, stop=0.3),)}, 7.382077137),
+        ({"bounds": {peak("c", stop=0.3): at_most(1.0)}}, 7.382077137),
+        ({"bounds": {peak("c*(1 + k)", stop=0.3): at_most(1.0)}}, 7.518154876),
+        ({"bounds": {peak("c^2 + b", stop=0.3): at_most(1.0)}}, 7.462285772),
+    ],
+)
+def test_a_limit_on_a_part_says_nothing_of_what_jumps_at_its_end(asked: dict[str, Any], optimum: float) -> None:
+    """The numbers are those of parts that end 1e-7 before the break, where the acceleration does not jump."""
+    problem = Problem(order=2, basis=Pieces([0.0, 0.3, 0.7, 1.0], 4, 1), minimise="C", symmetric=False, **asked)
+    solution = synthesize(problem)
+    assert solution.status == "optimal"
+    assert solution.objective == pytest.approx(optimum, rel=1e-9)
+    assert verify(solution.to_dict()).proven
+
+
+def test_the_best_of_a_formula_that_jumps_is_proven() -> None:
+    """Looked at on one side of its breaks alone it led to a law of 21.4."""
+    problem = Problem(order=2, basis=Pieces([0.0, 0.3, 0.7, 1.0], 4, 1), minimise="peak(c^2 + b)", symmetric=False)
+    solution = synthesize(problem)
+    assert solution.status == "optimal"
+    k = np.linspace(0.0, 1.0, 20001)
+    values = solution.law(k, 2) ** 2 + solution.law(k, 1)
+    assert values.max() == pytest.approx(solution.objective, rel=1e-3)
+    assert solution.objective == pytest.approx(18.48394415790, rel=1e-10)

@@ -20,9 +20,11 @@ from optlaws import (
     InputError,
     Link,
     Machine,
+    Pieces,
     Problem,
     Window,
     at_most,
+    peak,
     synthesize,
     via,
 )
@@ -176,3 +178,15 @@ def test_along_a_number_on_a_right_side_bounds_rise_as_the_optimum_and_along_oth
     assert there - 2e-2 * abs(high) / 128 <= float(proof.value) + high / 128 <= there * (1.0 + 1e-9)
     with pytest.raises(InputError, match="the number changes coefficients of constraints"):
         along(via("a", 0.25, at=0.4 + 1 / 128))
+
+
+def test_a_formula_that_jumps_where_its_part_ends_is_taken_from_before() -> None:
+    limit = peak("c*(1 + k)", stop=0.3)
+    problem = Problem(order=2, basis=Pieces((0.0, 0.3, 0.7, 1.0), 4, 1), symmetric=False, bounds={limit: at_most(1.0)})
+    rows = ExactRows(Certificate.of_leaf(problem, (), ()))
+    at_end, before = (rows.row(Contact(limit.name, 1.0, k, 1.0)) for k in (0.3, 0.3 - 1e-9))
+    assert at_end is not None
+    assert before is not None
+    assert list(map(float, at_end.functions)) == pytest.approx(list(map(float, before.functions)), abs=1e-6)
+    solution = synthesize(problem)
+    assert exact_bound(solution.certificate) == pytest.approx(solution.objective, rel=1e-9)
