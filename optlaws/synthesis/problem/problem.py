@@ -23,6 +23,7 @@ from optlaws.synthesis.problem.ranges import Bounds, Range, as_range
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.spaces.bases import Basis, Chebyshev
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+from optlaws.tolerances import MIRROR
 
 _NAMED = tuple(FUNCTIONALS[name] for name in CONSTANTS)
 _NUMBERS = Listed(Number())
@@ -202,6 +203,7 @@ class Problem(Declared, title="a problem"):
         symmetric: object = self.symmetric
         if isinstance(symmetric, AsItFits):
             object.__setattr__(self, "symmetric", not self.uneven)
+        self._put_inflexion_on_a_break()
         if self.symmetric and self.inflexion not in {None, 0.5}:
             raise InputError(
                 f"a symmetric law has its inflexion at 1/2, not at {self.inflexion!r}: give symmetric=False"
@@ -222,6 +224,12 @@ class Problem(Declared, title="a problem"):
                 object.__setattr__(self, constant.name, limits)
         others = {constant: limits for constant, limits in self.bounds.items() if constant not in _NAMED}
         object.__setattr__(self, "bounds", Bounds(others))
+
+    def _put_inflexion_on_a_break(self) -> None:
+        """A peak beside a break by no more than rounding is at the break: rows between them would be rounding alone."""
+        for k in getattr(self.basis, "breaks", ()) if self.inflexion is not None else ():
+            if abs(k - self.inflexion) <= MIRROR:
+                object.__setattr__(self, "inflexion", k)
 
     def _drop_implied_inflexion(self) -> None:
         """Equivalent problems are equal: for symmetric laws a fixed B may imply the peak in the middle."""

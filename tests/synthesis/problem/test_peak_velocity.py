@@ -62,6 +62,15 @@ def test_b_is_greatest_at_the_inflexion_whatever_its_sign(ends: Any, minimise: s
         assert proof.proven, [str(claim) for claim in proof.claims if not claim.proven]
 
 
+@pytest.mark.parametrize("beside", [-1e-12, -1e-14, -(2.0**-54), 2.0**-53, 1e-13])
+def test_a_peak_beside_a_break_by_rounding_is_at_the_break(beside: float) -> None:
+    """Between them a velocity is below its peak by rounding alone, which no row may be divided by."""
+    at_break = Problem(order=3, basis=Pieces((0.0, 0.3, 0.5, 1.0)), minimise="C", B=1.9, symmetric=False, inflexion=0.5)
+    assert synthesize(at_break).status == "optimal"
+    assert replace(at_break, inflexion=0.5 + beside) == at_break
+    assert replace(at_break, inflexion=0.5 + 1e-9) != at_break
+
+
 def test_a_law_that_is_faster_elsewhere_breaks_an_inflexion_with_a_peak_below_zero() -> None:
     ends = BoundaryConditions((0.0, -1.0), (-1.0, -1.0))
     even = Problem(boundary=ends, symmetric=False, minimise="rms_c")
