@@ -90,7 +90,7 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
     if proof.estimate < objective - STATED_BOUND * abs(objective):
         # a flat optimum may leave more of its multipliers' sum than the bound that is stated may be off
         proof = _settled(model, optimum, proof)
-    enough = objective - _PROOF_ENOUGH * max(abs(objective), _PROOF_ENOUGH)
+    enough = objective - _PROOF_ENOUGH * max(abs(objective), _PROOF_ENOUGH * model.problem.objective.scale)
     if (proof.estimate >= enough and not _of_one_side(model)) or proof.bound >= enough:
         return proof
     # constants that are nowhere below 0 bound their sum without a contact
