@@ -89,7 +89,7 @@ from .synthesis.least_time.move_limits import (
     TimedLimit as TimedLimit,
 )
 from .synthesis.least_time.timed_move import MoveObjective as MoveObjective, TimedMove as TimedMove
-from .synthesis.limits.drive_limits import DriveObjective as DriveObjective
+from .synthesis.limits.plane_of_problem import DriveObjective as DriveObjective
 from .synthesis.limits.phase_plane import PhasePlane as PhasePlane
 from .synthesis.problem.constants import ProblemView as ProblemView
 from .synthesis.problem.expression import Maximum as Maximum, Term as Term

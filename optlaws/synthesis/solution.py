@@ -186,6 +186,8 @@ class Solution(LawExport, JsonText):
             rows.append(Row("best possible", self.best_possible, note=laws))
         if self.drive_limit is not None:
             laws = "no law that never turns back is below it, whatever its order and degree"
+            if self.drive_limit.plane.velocities:
+                laws = "no law from order 3 on within this jerk that never turns back is below it, whatever its degree"
             rows.append(Row("best possible", self.drive_limit.value, note=laws))
             if self.drive_limit.value > 0.0:
                 cost = self.objective / self.drive_limit.value - 1.0
@@ -323,7 +325,7 @@ def partly_known(known: dict[str, Any], later: Mapping[str, Callable[[Solution],
 
 
 def _has_drive_limit(problem: Problem) -> bool:
-    from optlaws.synthesis.limits.drive_limits import plane_of
+    from optlaws.synthesis.limits.plane_of_problem import plane_of
 
     return plane_of(problem) is not None
 

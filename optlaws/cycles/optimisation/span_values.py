@@ -51,7 +51,7 @@ if TYPE_CHECKING:
     from optlaws.mechanisms.drives.effort import PieceEffort
     from optlaws.mechanisms.linkages.mechanism_formulas import LinearForce, StrokeTorque
     from optlaws.mechanisms.linkages.move_limit import MoveLimit
-    from optlaws.synthesis.limits.drive_limits import DriveObjective
+    from optlaws.synthesis.limits.plane_of_problem import DriveObjective
 
 PEAKS = {Kind.VELOCITY: "B", Kind.ACCELERATION: "C", Kind.JERK: "J", Kind.SNAP: "snap"}
 _MEANS = {Kind.ACCELERATION: "rms_c", Kind.JERK: "rms_j", Kind.SNAP: "rms_snap"}

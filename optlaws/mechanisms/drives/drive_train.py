@@ -27,7 +27,7 @@ from optlaws.tolerances import CLOSURE
 if TYPE_CHECKING:
     from optlaws.mechanisms.drives.effort import BestRatio, DriveSheet
     from optlaws.mechanisms.linkages.move_limit import MoveLimit
-    from optlaws.synthesis.limits.drive_limits import DriveObjective
+    from optlaws.synthesis.limits.plane_of_problem import DriveObjective
 
 _SHARE = Number(above=0.0, most=1.0)
 Efficiency: TypeAlias = Kept[tuple[float, float], "float | tuple[float, float]"]

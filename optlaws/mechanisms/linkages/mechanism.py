@@ -43,7 +43,7 @@ from optlaws.tolerances import CLOSURE, VALUE_ROUNDING
 
 if TYPE_CHECKING:
     from optlaws.mechanisms.linkages.move_limit import MoveLimit
-    from optlaws.synthesis.limits.drive_limits import DriveObjective
+    from optlaws.synthesis.limits.plane_of_problem import DriveObjective
 
 FORMAT = 1
 _POSITIONS = 721

@@ -34,7 +34,6 @@ from optlaws.sentences import quantity_name
 from optlaws.synthesis.limits.drive_limits import (
     LONG,
     DriveLimit,
-    DriveObjective,
     limit_of_plane,
     phase_torque,
     planes_of_proof,
@@ -42,6 +41,7 @@ from optlaws.synthesis.limits.drive_limits import (
 )
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_torque import ACCELERATION, AnyTorque
+from optlaws.synthesis.limits.plane_of_problem import DriveObjective
 from optlaws.tolerances import CLOSURE, STATED_BOUND
 
 _ENTRIES = ("dimension", "unit", "move", "drive_limit")

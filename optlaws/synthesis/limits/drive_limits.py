@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import lru_cache
 from itertools import pairwise
 from math import inf, isinf, nextafter, sqrt
-from typing import Any, Literal, TypeAlias, get_args
+from typing import Any, get_args
 
 import numpy as np
 
@@ -20,17 +20,15 @@ from optlaws.entries.value_types import Choice, Listed
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files.reading import check_names, of_known_format
 from optlaws.formulas.reading import read
-from optlaws.formulas.slopes import constant
-from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, Product, Sum, product
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, not_negative, positive, power_of_two
-from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, OfFormula
 from optlaws.synthesis.limits.motions.integrated import value_of
 from optlaws.synthesis.limits.motions.standing import Standing, least_energy, standing_level, standing_sign
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
 from optlaws.synthesis.limits.phase_plane_bound import Guess, Potential, even_price, proven_bound
 from optlaws.synthesis.limits.phase_plane_program import PhaseOptimum, optimum
-from optlaws.synthesis.limits.phase_torque import AnyTorque, PhaseTorque, greater_power, torque_of
+from optlaws.synthesis.limits.phase_torque import AnyTorque, torque_of
+from optlaws.synthesis.limits.plane_of_problem import DriveObjective, plane_of, within_ramps
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.tolerances import INTEGRATION, STATED_BOUND
 
@@ -40,8 +38,6 @@ _MOST_PHASE_GAP = 1e-2  # of a limit in the phase plane: what leaves less is not
 _SMALL_PHASE_GAP = 1e-6  # of a limit: more is looked for on finer elements
 
 _NUMBERS = Listed(value_types.Number())
-#: what a drive is to take as little of
-DriveObjective: TypeAlias = Literal["peak torque", "rms torque", "energy", "time"]
 
 #: by which shares of its size a potential falls more where it proves little
 _STEEPER = (0.0, 1e-8, 1e-6, 1e-4)
@@ -111,8 +107,11 @@ class DriveLimit(Declared, title="a drive's limit"):
         return _bound(self)
 
     def is_of(self, problem: Problem) -> bool:
-        """Whether the limit belongs to a problem's objective within its bounds."""
-        return plane_of(problem) == (self.plane, self.minimise, self.unit)
+        """Whether the limit belongs to a problem's objective within its bounds, with those that its jerk implies."""
+        known = plane_of(problem)
+        if known is None or known[1:] != (self.minimise, self.unit):
+            return False
+        return self.plane in [known[0], *within_ramps(known[0], problem)]
 
     def velocity(self, a: Any) -> Array:
         """The velocity of the best motion at positions, dimensionless.
@@ -494,9 +493,19 @@ def limit_beside(problem: Problem) -> DriveLimit | None:
     """
     try:
         known = plane_of(problem)
-        return None if known is None else _cached(*known)
+        if known is None:
+            return None
+        best = _cached(*known)
     except (InputError, InfeasibleProblem, SolverFailure):
         return None  # nothing is known then
+    for plane in within_ramps(known[0], problem):
+        with suppress(InputError, InfeasibleProblem, SolverFailure):
+            ramped = _cached_once(plane, *known[1:])
+            best = max(best, ramped, key=_proves)
+            # no more is proven by other ramps
+            if ramped.gap < _MOST_PHASE_GAP or ramped.attained < best.value * (1.0 + _MOST_PHASE_GAP):
+                break
+    return best
 
 
 @lru_cache(maxsize=64)
@@ -504,78 +513,8 @@ def _cached(plane: PhasePlane, minimise: DriveObjective, unit: float) -> DriveLi
     return limit_of_plane(plane, minimise, unit)
 
 
-def plane_of(problem: Problem) -> tuple[PhasePlane, DriveObjective, float] | None:
-    """The phase plane of a problem's objective within its bounds of B, C and torques, what is minimised and its unit.
-
-    Other bounds and windows are left out: what holds without them holds with them. None where the objective is no
-    drive's, as where an inertia is below 0.
-    """
-    try:
-        return _plane_of(problem)
-    except InputError:
-        return None
-
-
-def _plane_of(problem: Problem) -> tuple[PhasePlane, DriveObjective, float] | None:
-    [(weight, term), *others] = problem.objective.terms
-    if others or weight != 1.0 or not problem.monotone or problem.boundary is not None or problem.order < 2:
-        return None
-    if not isinstance(term, OfFormula) or (term.motion.start, term.motion.stop) != (0.0, 1.0):
-        return None
-    unit, plane = _objective(term)
-    if plane is None:
-        return None
-    limits = []
-    for limited, bounds in problem.bounded:
-        if isinstance(limited, FormulaPeak) and limited.of_magnitude and bounds.high < inf:
-            form = torque_of(limited.motion.formula)
-            if form is not None and (limited.motion.start, limited.motion.stop) == (0.0, 1.0):
-                limits.append(TorqueLimit(form.scaled(1.0 / unit), bounds.high / unit))
-    B, C = (inf if (known := problem.range(name)) is None else known.high for name in ("B", "C"))
-    minimise: DriveObjective = "energy" if isinstance(term, FormulaIntegral) else "rms torque"
-    minimise = "peak torque" if plane.peak is not None else minimise
-    return replace(plane, limits=tuple(limits), B=B, C=C), minimise, unit
-
-
-def _objective(term: OfFormula) -> tuple[float, PhasePlane | None]:
-    """The unit of a constant from a formula, and the phase plane of its minimum; None if it is no such constant."""
-    formula = term.motion.formula
-    if isinstance(term, FormulaIntegral):
-        return _of_integral(formula)
-    form = torque_of(formula)
-    if form is None:
-        return 1.0, None
-    scaled = form.scaled(1.0 / form.size)
-    if isinstance(term, FormulaRms):
-        return form.size, PhasePlane(squared=scaled)
-    if isinstance(term, FormulaPeak) and term.of_magnitude:
-        return form.size, PhasePlane(peak=scaled)
-    return 1.0, None
-
-
-def _of_integral(formula: Formula) -> tuple[float, PhasePlane | None]:
-    """The plane of a sum of powers, each the greater of two, and of one squared torque, each with a factor."""
-    powers: list[tuple[AnyTorque, AnyTorque]] = []
-    squares: list[tuple[float, AnyTorque]] = []
-    for part in formula.terms if isinstance(formula, Sum) else (formula,):
-        factors = part.factors if isinstance(part, Product) else (part,)
-        last, weight = factors[-1], constant(product([Number(1.0), *factors[:-1]]))
-        if weight is None or weight <= 0.0:
-            return 1.0, None
-        if isinstance(last, Exponentiation) and constant(last.exponent) == 2.0:
-            form = torque_of(last.base)
-            squares += [] if form is None else [(weight, form)]
-        elif isinstance(last, Call) and last.function == "max":
-            pair = greater_power(last.arguments)
-            powers += [] if pair is None else [(pair[0].scaled(weight), pair[1].scaled(weight))]
-    parts = formula.terms if isinstance(formula, Sum) else (formula,)
-    if len(powers) + len(squares) != len(parts) or len(squares) > 1:
-        return 1.0, None
-    torques = [*(form for _, form in squares), *(form for pair in powers for form in pair)]
-    # what braking gives back may be no torque at all
-    unit = max((torque.size for torque in torques if torque != PhaseTorque(Number(0.0))), default=1.0)
-    maxima = tuple((first.scaled(1.0 / unit), second.scaled(1.0 / unit)) for first, second in powers)
-    if not squares:
-        return unit, PhasePlane(maxima=maxima)
-    [(weight, form)] = squares
-    return unit, PhasePlane(squared=form.scaled(1.0 / unit), maxima=maxima, heat=weight * unit)
+@lru_cache(maxsize=64)
+def _cached_once(plane: PhasePlane, minimise: DriveObjective, unit: float) -> DriveLimit:
+    """The limit on the first elements: finer ones add little between steps of bounds."""
+    standing = Standing(plane, standing_level(plane))
+    return _limit(standing, minimise, unit, optimum(standing))

@@ -411,6 +411,42 @@ def test_a_bound_of_the_torque_counts() -> None:
     assert limit.value == pytest.approx(drive_limit(LOADED, "rms torque", B=2.2, P=4.5).value, rel=1e-6)
 
 
+@pytest.mark.parametrize("minimise", [rms, peak])
+def test_a_bound_of_the_jerk_counts(minimise: Callable[[str], Any]) -> None:
+    """Laws of order 3 begin without acceleration: what they are slower by at their ends costs torque."""
+    free = Problem(order=3, basis=Powers(11), symmetric=False, monotone=True, minimise=minimise(LOADED))
+    solution, plain = synthesize(replace(free, J=at_most(55.0))), limit_beside(free)
+    limit = solution.drive_limit
+    assert limit is not None
+    assert plain is not None
+    assert 1.05 * plain.value < limit.value < solution.objective
+    assert solution.lower_bound == limit.value
+    assert limit.is_of(solution.problem)
+    assert plain.is_of(solution.problem)  # as of files written before
+    assert not limit.is_of(free)
+    assert not limit.is_of(replace(solution.problem, J=at_most(56.0)))
+    assert verify(solution.to_dict()).proven
+    # that of order 2 may begin with any acceleration
+    lower = limit_beside(replace(solution.problem, order=2))
+    assert lower is not None
+    assert lower.value == pytest.approx(plain.value, rel=1e-6)
+    [row] = [row for row in solution.summary() if row.name == "best possible"]
+    assert "within this jerk" in row.note
+
+
+@pytest.mark.parametrize("name", ["cycloidal", "modified sine", "4567", "modified trapezoid"])
+def test_no_law_is_faster_than_the_ramps_of_its_jerk(name: str) -> None:
+    law = catalogue[name].law
+    problem = Problem(order=3, monotone=True, symmetric=False, minimise=rms(LOADED), J=at_most(law.peak(3).value))
+    limit = limit_beside(problem)
+    assert limit is not None
+    assert limit.plane.velocities
+    k = np.linspace(0.0, 1.0, 20001)
+    a, b = law.a(k), law.b(k)
+    for ramp in limit.plane.velocities:
+        assert b[(a >= ramp.start) & (a <= ramp.stop)].max(initial=0.0) <= ramp.B
+
+
 # --- published motions ---
 
 
