@@ -93,7 +93,9 @@ def test_heat_of_no_law_is_below_the_bound() -> None:
 def test_other_units_are_the_same_law(unit: float) -> None:
     best, other = (
         indexed(
-            drive=Drive(Mechanism(0.8 * size), Motor(3e-4 * size, constant=0.3 * size**0.5), ratio=20), minimise="heat"
+            drive=Drive(Mechanism(0.8 * size), Motor(3e-4 * size, constant=0.3 * size**0.5), ratio=20),
+            minimise="heat",
+            degree=5,
         )
         for size in (1.0, unit)
     )

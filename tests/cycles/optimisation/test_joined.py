@@ -45,7 +45,7 @@ def test_the_least_rms_of_the_acceleration_is_the_periodic_spline_of_the_joints(
 
 def test_no_law_on_a_fine_grid_has_a_smaller_peak_acceleration() -> None:
     """Linear programming over accelerations that are constant in 200 steps."""
-    cycle = Cycle(WAYS, period="1 s", degree=15)
+    cycle = Cycle(WAYS, period="1 s")
     count = 200
     step = 1.0 / count
     moved = np.tril(np.ones((count, count)), -1)  # velocity at the start of each step, in steps of acceleration
@@ -65,14 +65,14 @@ def test_no_law_on_a_fine_grid_has_a_smaller_peak_acceleration() -> None:
 @pytest.mark.sample(4)
 @pytest.mark.parametrize("minimise", ["acceleration", "jerk", "rms jerk"])
 def test_what_repeats_ends_as_it_begins(minimise: str) -> None:
-    cycle = Cycle(WAYS, period="1 s", minimise=minimise)
+    cycle = Cycle(WAYS, period="1 s", minimise=minimise, degree=5)
     (solution,) = cycle.solutions
     assert isinstance(solution.problem.basis, PeriodicPieces)
     assert cycle.status == "optimal"
     assert cycle(TIMES[:-1]) == pytest.approx(PLACES[:-1], abs=1e-11)
     assert len(cycle.joints) == len(WAYS)
     assert all(joint["velocity"] == joint["acceleration"] == 0.0 for joint in cycle.joints)
-    turned = Cycle([*WAYS[2:], *WAYS[:2]], period="1 s", minimise=minimise, start="50 mm")
+    turned = Cycle([*WAYS[2:], *WAYS[:2]], period="1 s", minimise=minimise, start="50 mm", degree=5)
     assert turned.objective == pytest.approx(cycle.objective, rel=1e-7)
 
 

@@ -37,7 +37,7 @@ WAYS = (Free("90 deg", "0.2 s"), Free("30 deg", "0.2 s"), Free("-120 deg"))
 
 
 def cycle(segments: Any = MOVES, **others: Any) -> Cycle:
-    given: dict[str, Any] = {"period": "1 s", "drive": MOTOR, "degree": 7} | others
+    given: dict[str, Any] = {"period": "1 s", "drive": MOTOR, "degree": 5} | others
     return Cycle(list(segments), **given)
 
 
@@ -45,7 +45,7 @@ def cycle(segments: Any = MOVES, **others: Any) -> Cycle:
 def test_equal_moves_share_the_limit_equally(minimise: str, constant: str, nu: int) -> None:
     """A single law under its own bound is the oracle."""
     stroke, duration, most = np.deg2rad(60.0), 0.2, 1.192
-    single = synthesize(Problem(order=3, basis=Chebyshev(7), minimise=constant, symmetric=False, bounds={
+    single = synthesize(Problem(order=3, basis=Chebyshev(5), minimise=constant, symmetric=False, bounds={
         "rms_c": at_most(most / np.sqrt(2 * duration) / (0.02 * stroke / duration**2))
     }))  # fmt: skip
     both = [Rise("60 deg", "0.2 s"), Dwell("0.3 s"), Return(duration="0.2 s"), Dwell()]
@@ -59,7 +59,7 @@ def test_equal_moves_share_the_limit_equally(minimise: str, constant: str, nu: i
 def test_a_power_is_the_least_within_a_shared_limit() -> None:
     """Not convex: a single law under its own bound is the oracle."""
     stroke, duration, most = np.deg2rad(60.0), 0.2, 1.18
-    single = synthesize(Problem(order=3, basis=Chebyshev(7), minimise="D", symmetric=False, bounds={
+    single = synthesize(Problem(order=3, basis=Chebyshev(5), minimise="D", symmetric=False, bounds={
         "rms_c": at_most(most / np.sqrt(2 * duration) / (0.02 * stroke / duration**2))
     }))  # fmt: skip
     both = [Rise("60 deg", "0.2 s"), Dwell("0.3 s"), Return(duration="0.2 s"), Dwell()]
@@ -106,18 +106,18 @@ def test_a_limit_that_does_not_bind_changes_nothing() -> None:
 def test_dry_friction_adds_its_square_where_motions_turn() -> None:
     """The work of inertia over a cycle is 0, so that without viscous friction the squares add up."""
     drive = INERTIA | {"dry": "0.3 N m"}
-    smooth, rough = (cycle(WAYS, minimise="rms torque", drive=one, degree=5) for one in (INERTIA, drive))
+    smooth, rough = (cycle(WAYS, minimise="rms torque", drive=one) for one in (INERTIA, drive))
     assert rough.status == "optimal"
     assert rough.objective == pytest.approx(np.hypot(smooth.objective, 0.3), rel=1e-9)
     assert rough.lower_bound == pytest.approx(rough.objective, rel=1e-7)
 
 
 def test_viscous_and_dry_friction_are_bounded_by_the_way_that_must_be_gone() -> None:
-    course = cycle(WAYS, minimise="rms torque", degree=5)
+    course = cycle(WAYS, minimise="rms torque")
     assert course.status == "local"
     assert course.lower_bound is not None
     assert 0.99 * course.objective < course.lower_bound < course.objective
-    kept = cycle(WAYS, limits={"rms torque": "0.8 N m"}, degree=5)
+    kept = cycle(WAYS, limits={"rms torque": "0.8 N m"})
     assert kept.effort.rms_force <= 0.8 * (1 + 1e-9)
     assert kept.lower_bound is not None
     assert 0.98 * kept.objective < kept.lower_bound < kept.objective
@@ -125,7 +125,7 @@ def test_viscous_and_dry_friction_are_bounded_by_the_way_that_must_be_gone() -> 
 
 def test_power_is_bounded_as_d_is() -> None:
     least = cycle([Rise("60 deg", "0.2 s"), Dwell()], minimise="power", drive=INERTIA, advance="60 deg")
-    single = synthesize(Problem(order=3, basis=Chebyshev(7), minimise="D", symmetric=False))
+    single = synthesize(Problem(order=3, basis=Chebyshev(5), minimise="D", symmetric=False))
     size = 0.02 * np.deg2rad(60.0) ** 2 / 0.2**3
     assert least.status == "local"
     assert least.objective == pytest.approx(size * single.objective, rel=1e-7)

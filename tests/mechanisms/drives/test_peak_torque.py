@@ -20,7 +20,10 @@ KNEE = toggle(
     bodies={"ram": "40 kg", "crank": "0.05 kg m^2"},
     loads=Loads(PLATEAU, over="input"),
 )
-DRIVEN = Drive(KNEE, Motor("3e-4 kg m^2"), ratio=10, efficiency=0.92)
+#: with a load that drives it too, whose torque is a table of its angle
+TURNED = Mechanism("0.5 kg m^2", {"0 deg": "0 N m", "60 deg": "0 N m", "90 deg": "-120 N m", "120 deg": "-120 N m",
+    "150 deg": "0 N m", "360 deg": "0 N m"})  # fmt: skip
+DRIVEN = Drive(TURNED, Motor("3e-4 kg m^2"), ratio=10, efficiency=0.92)
 RUBBING = replace(GEARED, mechanism=LOADED)
 
 
