@@ -431,7 +431,7 @@ def _best(
         if below and not contact.linear:
             raise SolverFailure(f"no law was found {where} that keeps the limits of the cam: {_WIDER}") from None
         raise InfeasibleProblem(
-            f"no law {where} keeps the limits of the cam: {_WIDER}. {error.args[0]}",
+            f"no law {where} keeps the limits of the cam with those of the motion: {_WIDER}",
             problem=error.problem,
             tried=error.tried,
             proof=error.proof,

@@ -150,8 +150,8 @@ class Specification(Declared, title="a stored cycle"):
     order: int = entry(Whole(2, 10), "Number of end conditions of optimal laws.", default=3)
     degree: int = entry(
         Whole(0, MOST_DEGREE),
-        "Of their Z, at least 15 where a velocity is given at an end; order and degree make the laws that are "
-        "compared: `search_space` says which.",
+        "Degree of the polynomial Z of optimal laws, at least 15 where a velocity is given at an end; order and degree "
+        "make the laws that are compared: `search_space` says which.",
         default=USUAL_DEGREE,
     )
 

@@ -425,6 +425,9 @@ def _binding(overlap: Any) -> Claim:
         surely, hardly = (set(overlap.bound_by(share)) for share in (0.5, 2.0))
     except OptlawsError as error:
         return Claim(name, proven=False, detail=str(error))
-    detail = f"{', '.join(overlap.binding)} stated; {', '.join(sorted(hardly))} by the instants, in doubles"
+    named = ", ".join(overlap.binding)
+    detail = f"{named}, as the instants have it, in doubles"
+    if stated != hardly:
+        detail = f"{named} stated; {', '.join(sorted(hardly))} by the instants, in doubles"
     agrees = surely <= stated <= hardly and len(stated) == len(overlap.binding)
     return recomputed(name, detail, "" if agrees else detail)
