@@ -154,9 +154,7 @@ def drag(page: Page, key: str, by: float) -> None:
 
 
 def test_bars_are_dragged_until_an_interlock_breaks(page: Page, served: Server) -> None:
-    go(page, f"http://{served.host}/")
-    page.get_by_role("tab", name="Timing").click()
-    settle(page)
+    go(page, served.link(view="axes"))
     bar = page.locator('[data-key="bar 1 0"]')
     assert bar.get_attribute("aria-valuetext") == "from 50 deg to 105 deg"
     drag(page, "bar 1 0", 45.0)
@@ -198,9 +196,7 @@ def test_the_corner_of_a_forbidden_region_is_moved(page: Page, served: Server) -
 
 
 def test_axes_are_added_renamed_and_removed_with_what_names_them(page: Page, served: Server) -> None:
-    go(page, f"http://{served.host}/")
-    page.get_by_role("tab", name="Timing").click()
-    settle(page)
+    go(page, served.link(view="axes"))
     assert "die 0 mm" in page.locator("#axes-reading").inner_text()
     page.get_by_label("put the moves together for").select_option("acceleration")
     page.get_by_label("name of axis 1").fill("turret")

@@ -142,24 +142,18 @@ def test_a_text_that_is_no_table_says_why(served: Server, text: str, reason: str
     assert "refused" in served.ask("old-move", {"study": {"text": text}, "axis": 0})
 
 
-def bettered(page: Page) -> None:
-    """Wait for better laws, each of which takes a second of the processor."""
-    page.locator("body[data-work=settled]").wait_for(timeout=60_000)
-
-
 def test_a_dropped_table_is_shown_and_bettered_within_a_dragged_band(page: Page, served: Server, turn: Path) -> None:
-    go(page, f"http://{served.host}/")
-    page.get_by_role("tab", name="Old table").click()
+    go(page, served.link(view="old"))
     page.get_by_label("Table of an old cam").wait_for()
     page.get_by_label("Table of an old cam").set_input_files(turn)
-    bettered(page)
+    settle(page)
     assert "modified sine" in page.locator("#old-moves").inner_text()
     assert page.locator("#old-curves .dots").count() == 2
     page.get_by_role("button", name="Find better laws").press("Enter")
     assert page.evaluate("() => document.activeElement.id") == "old-gains"
     band = page.get_by_label("Tolerance of the better laws", exact=True)
     band.fill("0.2")
-    bettered(page)
+    settle(page)
     study = {"file": "turn.csv", "text": STUDY["text"], "within": 0.2}
     wide = served.ask("old-move?patience=20", {"study": study, "axis": 0})
     gains = served.ask("old", {"study": study, "laws": [[wide["law"]]]})["tables"][1]["rows"]
@@ -170,11 +164,11 @@ def test_a_dropped_table_is_shown_and_bettered_within_a_dragged_band(page: Page,
     assert "not proven" not in page.locator("#proof-view").inner_text()
     page.get_by_role("button", name="Undo").click()
     page.get_by_role("button", name="Undo").click()
-    bettered(page)
+    settle(page)
     assert band.input_value() == "0.07"
     page.get_by_role("textbox", name="speed").fill("300 rpm")
     page.get_by_role("button", name="Export").click()
-    bettered(page)
+    settle(page)
     assert "as executed" in page.locator("dialog[open]").inner_text()
 
 
@@ -188,8 +182,7 @@ def test_the_moves_of_a_table_are_taken_as_the_machine(page: Page, served: Serve
 
 def test_the_frame_of_a_table_is_said_in_fields(page: Page, served: Server) -> None:
     """The example once more in a turn of 720 deg, then its first 41 rows, of a rise, as one lobe of three."""
-    go(page, f"http://{served.host}/")
-    page.get_by_role("tab", name="Old table").click()
+    go(page, served.link(view="old"))
     fields = {
         name: page.get_by_role("textbox", name=name, exact=True) for name in ("turn", "advance", "rows that count")
     }
@@ -203,7 +196,7 @@ def test_the_frame_of_a_table_is_said_in_fields(page: Page, served: Server) -> N
     fields["advance"].fill("105 mm")
     lobes.fill("3")
     page.locator("#old-trust", has_text="3 moves").wait_for(timeout=30_000)
-    bettered(page)
+    settle(page)
     assert page.locator("#old-moves").inner_text().count("modified sine") == 3
     lobes.fill("1")
     fields["turn"].fill("360 deg")

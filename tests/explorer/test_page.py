@@ -276,9 +276,7 @@ def test_what_is_saved_is_what_is_seen(page: Page, served: Server) -> None:
 
 
 def test_a_cycle_is_shown_changed_and_refused(page: Page, served: Server) -> None:
-    go(page, f"http://{served.host}/")
-    page.get_by_role("tab", name="Motion").click()
-    settle(page)
+    go(page, served.link(view="cycle"))
     cell = page.locator("#segments tbody tr >> nth=0 >> td >> nth=4")
     assert cell.inner_text() == "616"
     assert page.locator("#motion .curve").count() == 4
@@ -362,8 +360,7 @@ def test_an_export_says_what_the_controller_will_run(page: Page, served: Server)
 
 
 def test_a_cam_is_changed_by_the_fields_that_its_values_declare(page: Page, served: Server) -> None:
-    go(page, f"http://{served.host}/")
-    page.get_by_role("tab", name="Cam", exact=True).click()
+    go(page, served.link(view="cam"))
     page.get_by_label("kind of follower").select_option("translating flat")
     page.get_by_label("face length").fill("9,5 mm")
     settle(page)
@@ -399,9 +396,7 @@ def lift(page: Page) -> float:
 
 
 def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Server) -> None:
-    go(page, f"http://{served.host}/")
-    page.get_by_role("tab", name="Cam", exact=True).click()
-    settle(page)
+    go(page, served.link(view="cam"))
     assert "no undercut" in page.locator("#cam-trust").inner_text()
     assert page.locator("#cam-curves svg").count() == 3
     lowest = lift(page)
@@ -527,9 +522,7 @@ def test_the_hint_of_a_first_visit_is_where_the_blue_point_is(page: Page, served
 
 
 def test_kinds_and_times_keep_what_was_given(page: Page, served: Server) -> None:
-    go(page, f"http://{served.host}/")
-    page.get_by_role("tab", name="Motion").click()
-    settle(page)
+    go(page, served.link(view="cycle"))
     page.get_by_label("timing", exact=True).select_option("period")
     assert page.get_by_label("timing value").input_value() == "0.3 s"
     page.get_by_label("timing", exact=True).select_option("speed")
