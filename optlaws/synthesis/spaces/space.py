@@ -185,8 +185,12 @@ class LawSpace(ABC):
     def part(self, start: float, stop: float, orders: Iterable[int]) -> tuple[float, float]:
         """The u of a part of the interval, up to just before its end where a derivative of one of the orders jumps."""
         low, high = 1.0 - 2.0 * stop, 1.0 - 2.0 * start
-        jumping = low < high and low in self.edges[1:-1] and any(map(self.jumps, orders))
-        return (low + BESIDE_BREAK if jumping else low), high
+        if low == high or not any(map(self.jumps, orders)):
+            return low, high
+        # of symmetric laws the ends may be mirror images of breaks, rounded otherwise
+        off = BESIDE_BREAK if self.symmetric else 0.0
+        low, high = (next((edge for edge in self.edges[1:-1] if abs(u - edge) <= off), u) for u in (low, high))
+        return low + BESIDE_BREAK if low in self.edges[1:-1] else low, high
 
     def jumps(self, nu: int) -> bool:
         """Whether the derivative of order nu may jump at a break."""

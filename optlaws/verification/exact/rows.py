@@ -462,8 +462,8 @@ class ExactRows:
         """
         if start < stop and not start - _NEAR <= k <= stop + _NEAR:
             raise LookupError
-        last = stop - _BESIDE if start < stop and stop in self.space.breaks[1:-1] else stop
-        return min(max(k, start), last)
+        at_end = [edge for edge in self.space.breaks[1:-1] if start < edge and abs(stop - edge) <= 2 * _BESIDE]
+        return min(max(k, start), at_end[0] - _BESIDE if at_end else stop)
 
 
 def _exact(value: float) -> Number:

@@ -307,6 +307,21 @@ def test_a_limit_on_a_part_says_nothing_of_what_jumps_at_its_end(asked: dict[str
     assert verify(solution.to_dict()).proven
 
 
+@pytest.mark.parametrize(("text", "optimum"), [("c", 19.75), ("c*(1 + k)", 22.189220183), ("c^2 + b", 20.0875)])
+def test_a_limit_on_a_part_of_symmetric_laws_says_nothing_of_what_jumps_at_its_mirrored_end(
+    text: str, optimum: float
+) -> None:
+    """1 - 0.7 is not 0.3 to the last digit; the numbers are those of parts that begin 1e-7 after the break."""
+    bounds = {peak(text, start=0.7): at_most(1.0)}
+    problem = Problem(
+        order=2, basis=Pieces([0.0, 0.3, 0.5, 0.7, 1.0], 4, 1), minimise="C", bounds=bounds, symmetric=True
+    )
+    solution = synthesize(problem)
+    assert solution.status == "optimal"
+    assert solution.objective == pytest.approx(optimum, rel=1e-9)
+    assert verify(solution.to_dict()).proven
+
+
 def test_the_best_of_a_formula_that_jumps_is_proven() -> None:
     """Looked at on one side of its breaks alone it led to a law of 21.4."""
     problem = Problem(order=2, basis=Pieces([0.0, 0.3, 0.7, 1.0], 4, 1), minimise="peak(c^2 + b)", symmetric=False)
