@@ -74,43 +74,22 @@ def conjugate_cam(
     if given[name] is None or sum(value is not None for value in given.values()) != 1:
         such = f"{name}={entries_of(ReturnFollower)[name].example!r}"
         raise InputError(f"a pair of {type(second).__name__} is given by its {name} alone, such as {such}")
-    if name == "distance":
-        return _on_slide(cam, second, positive(distance, "distance"))
-    return _on_pivot(cam, second, quantity(angle, "angle", "angle"))
-
-
-def _on_slide(cam: DiscCam, follower: CamFollower, distance: float) -> DiscCam:
-    """The second cam of a slide, beneath the shaft: as seen there the cam is turned by half a turn."""
-    motion = cam.displacement
-    least = distance - cam.contact.level - (motion.range[1] - motion.range[0])
-    if least <= 0.0:
+    motion, phase = cam.displacement, quantity(cam.phase, "angle", "phase")
+    size = positive(distance, name) if name == "distance" else quantity(angle, "angle", name)
+    least = size - cam.contact.level - (motion.range[1] - motion.range[0])
+    if name == "distance" and least <= 0.0:
         raise InputError(
-            f"distance {shown(distance)} is too short: the first follower is up to {shown(distance - least)} above the"
+            f"distance {shown(size)} is too short: the first follower is up to {shown(size - least)} above the"
             " shaft, and the second must be beneath it: make it longer"
         )
-    radius = follower.prime_radius(least)
-    phase = quantity(cam.phase, "angle", "phase") + pi
-    beneath = follower.from_beneath()
-    return DiscCam(motion.reversed(), Exact(radius, "m"), beneath, turning=cam.turning, phase=Exact(phase, "rad"))
-
-
-def _on_pivot(cam: DiscCam, follower: CamFollower, angle: float) -> DiscCam:
-    """The second cam on the other side of the line to the pivot: seen in a mirror it turns the other way."""
-    motion = cam.displacement
-    least = angle - cam.contact.level - (motion.range[1] - motion.range[0])
-    if not 0.0 < least < pi:
+    if name == "angle" and not 0.0 < least < pi:
         raise InputError(
-            f"angle {degrees(angle):.6g} deg leaves {degrees(least):.6g} deg between the second arm and the line to the"
-            f" cam's centre: give more than {degrees(angle - least):.6g} deg and less than half a turn beyond"
+            f"angle {degrees(size):.6g} deg leaves {degrees(least):.6g} deg between the second arm and the line to the"
+            f" cam's centre: give more than {degrees(size - least):.6g} deg and less than half a turn beyond"
         )
-    radius = follower.prime_radius(least)
+    circle = motion.reversed(), Exact(second.prime_radius(least), "m")
+    if name == "distance":  # as seen from beneath the shaft the cam is turned by half a turn
+        return DiscCam(*circle, second.from_beneath(), turning=cam.turning, phase=Exact(phase + pi, "rad"))
+    # on the other side of the line to the pivot, seen in a mirror, it turns the other way
     other = next(name for name, turning in TURNINGS.items() if turning == -cam.contact.turning)
-    phase = quantity(cam.phase, "angle", "phase")
-    return DiscCam(
-        motion.reversed(),
-        Exact(radius, "m"),
-        follower,
-        turning=other,
-        phase=Exact(-phase, "rad"),
-        mirrored=not cam.mirrored,
-    )
+    return DiscCam(*circle, second, turning=other, phase=Exact(-phase, "rad"), mirrored=not cam.mirrored)

@@ -219,7 +219,8 @@ class CamForces:
 
     def follower_force(self, angle: Any) -> Any:
         """The force on the follower along its way, N, or the torque about its pivot, N m."""
-        return self._given(self._follower_force, angle)
+        jet = self.cam.displacement.jet
+        return self._given(lambda at, order: self._taken(jet(at, order + 2), at), angle)
 
     def contact_force(self, angle: Any) -> Any:
         """The force between cam and follower along their normal, N; below 0 where the follower would lift off."""
@@ -319,9 +320,6 @@ class CamForces:
 
     def _enclosed(self, function: Function) -> Extremes:
         return extremes(function, self.edges, share=FORCE_EXTREMES, parts=_PARTS)
-
-    def _follower_force(self, angle: Array | Interval, order: int) -> Jet:
-        return self._taken(self.cam.displacement.jet(angle, order + 2), angle)
 
     def _taken(self, s: Jet, angle: Array | Interval) -> Jet:
         rate, load, slope = self.rate, self.load, s.slope()

@@ -178,7 +178,11 @@ class CamReport:
         cam, extremes = self.cam, self.cam.extremes
         enclosed = {key: each and enclosure(each, limit) for _, key, each, _, limit in self._enclosed if key}
         reached = self.limits.pressure if self.reached else None
-        sizes = {size.name.replace(" ", "_"): enclosure(size.extreme) | _limit(size) for size in extremes.sizes}
+        sizes = {
+            size.name.replace(" ", "_"): enclosure(size.extreme)
+            | ({} if size.limit is None else {"limit": size.limit, "kept": size.within})
+            for size in extremes.sizes
+        }
         return {
             "prime_radius": positive(cam.prime_radius, "prime_radius"),
             "base_radius": cam.base_radius,
@@ -435,10 +439,6 @@ def leaves(forces: CamForces) -> str:
         return "the follower lifts off"
     pressed = chop(forces.contact.least, forces.contact.peak, FORCE_ROUNDING) > 0.0
     return "" if pressed else "the follower touches without force"
-
-
-def _limit(size: Any) -> dict[str, Any]:
-    return {} if size.limit is None else {"limit": size.limit, "kept": size.within}
 
 
 def _scaled(curve: Values, size: float, at: Array) -> Array:

@@ -79,11 +79,6 @@ class Cutting(Declared, title="a file for cutting"):
         return quantity(self.tolerance, "length", "tolerance", above=0.0)
 
     @property
-    def feed_rate(self) -> float:
-        """The feed in mm a minute; 0 where none is given."""
-        return 0.0 if self.feed is None else 60e3 * quantity(self.feed, "velocity", "feed", above=0.0)
-
-    @property
     def line(self) -> str:
         """The description of the file on one line of plain characters."""
         printable = "".join(
@@ -180,7 +175,8 @@ def as_arc_moves(outline: Outline, options: Cutting) -> str:
 
 def _program(start: np.ndarray, moves: list[str], options: Cutting) -> str:
     """Units, plane and mode, the way to the start, and the moves: spindle, depth and compensation are the user's."""
-    feed = f" F{options.feed_rate:.9g}" if options.feed is not None else ""
+    given = options.feed
+    feed = "" if given is None else f" F{60e3 * quantity(given, 'velocity', 'feed', above=0.0):.9g}"
     return "\n".join(
         [
             f"({options.line}; {MARK})",

@@ -167,7 +167,8 @@ class FollowerContact(ABC):
     @property
     def pivot(self) -> float | None:
         """The distance of the pivot from the cam's centre; None on a slide."""
-        return None
+        distance: float | None = getattr(self, "distance", None)
+        return distance
 
     @property
     def meets_axis(self) -> bool:

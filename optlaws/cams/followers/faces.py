@@ -289,10 +289,6 @@ class OscillatingFlat(FlatFollower, kind="oscillating flat"):
         offset = quantity(self.face_offset, "length", "face: face_offset")
         return positive(self.pivot_distance, "face: pivot_distance") * sin(level) + offset
 
-    @property
-    def pivot(self) -> NumberOrQuantity:
-        return self.pivot_distance
-
 
 @dataclass(frozen=True)
 class SwingingFace(FaceContact):
@@ -303,10 +299,6 @@ class SwingingFace(FaceContact):
 
     distance: float
     offset: float
-
-    @property
-    def pivot(self) -> float:
-        return self.distance
 
     def point(self, s: Jet) -> Pair:
         sine, cosine = self._waves(s)

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from functools import cache
 from importlib import import_module
-from pathlib import Path
-from pkgutil import iter_modules
 from typing import Any, ClassVar, Self
 
 from optlaws.cams.followers.contact import FollowerContact
@@ -37,7 +34,7 @@ class Place:
 class CamFollower(Kinded, ABC, title="a follower"):
     """A follower of a disc cam, as a person gives it.
 
-    A kind is a declared class in a module of this folder, which is known by its kind: nothing else names it.
+    A kind is a declared class, which is known by its kind: nothing else names it.
     """
 
     #: whether it moves by a "length" or an "angle"
@@ -50,7 +47,8 @@ class CamFollower(Kinded, ABC, title="a follower"):
     @classmethod
     def kinds(cls) -> dict[str, type[Self]]:
         """The kinds of followers by their names in problem files, those of this folder among them."""
-        _load()
+        for module in ("faces", "rollers"):
+            import_module(f"{__package__}.{module}")
         # slides before arms, whichever was imported first
         return dict(sorted(super().kinds().items(), reverse=True))
 
@@ -70,7 +68,8 @@ class CamFollower(Kinded, ABC, title="a follower"):
     @property
     def pivot(self) -> NumberOrQuantity | None:
         """The distance of the pivot from the cam's centre; None on a slide."""
-        return None
+        distance: NumberOrQuantity | None = getattr(self, "pivot_distance", None)
+        return distance
 
     def from_beneath(self) -> CamFollower:
         """The same follower on its slide, seen from below the shaft."""
@@ -131,10 +130,3 @@ def follower_names() -> str:
     """Names of the classes, as an error lists them."""
     *names, last = [kind.__name__ for kind in CamFollower.kinds().values()]
     return f"{', '.join(names)} or {last}"
-
-
-@cache
-def _load() -> None:
-    """Import the modules of the folder, by which their kinds are known."""
-    for module in iter_modules([str(Path(__file__).parent)]):
-        import_module(f"{__package__}.{module.name}")

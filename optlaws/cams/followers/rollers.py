@@ -282,10 +282,6 @@ class OscillatingRoller(CamFollower, kind="oscillating roller"):
         arm, pivot = positive(self.arm, "roller: arm"), positive(self.pivot_distance, "roller: pivot_distance")
         return sqrt(arm**2 + pivot**2 - 2.0 * arm * pivot * cos(level))
 
-    @property
-    def pivot(self) -> NumberOrQuantity:
-        return self.pivot_distance
-
 
 @dataclass(frozen=True)
 class SwingingRoller(RollerContact):
@@ -295,10 +291,6 @@ class SwingingRoller(RollerContact):
     distance: float
     #: the limit of the pressure angle is a sine of the arm's angle, with lines below and above it
     linear: ClassVar[bool] = False
-
-    @property
-    def pivot(self) -> float:
-        return self.distance
 
     def point(self, s: Jet) -> Pair:
         sine, cosine = self._psi(s).waves()

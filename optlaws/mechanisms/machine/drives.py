@@ -52,13 +52,9 @@ class Forcing:
         """Derivative of order `nu` of a at s."""
         if not self.sines:
             return self._steady(s, nu)
-        first, *others = (motion.derivative(s, 1.0, nu) for motion in self._swings)
+        first, *others = (SineSegment(*sine).derivative(s, 1.0, nu) for sine in self.sines)
         swing: Array = sum(others, first)
         return swing if nu > 1 and not self.acceleration.any() else swing + self._steady(s, nu)
-
-    @kept_property
-    def _swings(self) -> tuple[SineSegment, ...]:
-        return tuple(SineSegment(*sine) for sine in self.sines)
 
     @kept_property
     def series(self) -> tuple[Array, Array, Array]:
