@@ -11,7 +11,7 @@ from scipy.interpolate import BPoly
 
 from optlaws import InputError, catalogue, read_cycle_table, smoothstep, split_table
 from tests.cycles.simulated_cams import simulated_cam
-from tests.internals.cycles import OldTableReport, least_peak
+from tests.internals.cycles import OldTableReport, law_of_move, least_peak
 
 QUINTIC = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6])
 
@@ -637,3 +637,74 @@ def test_a_crest_that_noise_makes_look_like_a_long_rest_is_one() -> None:
     table = split_table(x, np.round(exact + np.random.default_rng(1).normal(0.0, 5e-3, 3601), 2), digit=0.01)
     assert [part.law for part in table.stretches] == [None, *["4-5-6-7 polynomial"] * 2, None]
     assert [part.stop for part in table.stretches] == pytest.approx([60.0, 146.0, 261.0, 360.0], abs=0.2)
+
+
+@pytest.mark.parametrize("seed", [3, 5])
+def test_ramps_of_eleven_rows_between_corners_are_lines(seed: int) -> None:
+    """A table of 2 deg steps whose lift is at rest where its ramps end: jumps of 13 times the noise in a step."""
+    x = np.linspace(0.0, 358.0, 180)
+    lift = BPoly.from_derivatives([117.0, 169.0], [[0.44, 0.0, 0.0], [8.64, 0.0, -0.016]])
+    away = np.minimum(x, 338.0 - x)
+    exact = np.select([away <= 95.0, away < 117.0], [0.0, 0.02 * (away - 95.0)], lift(np.minimum(away, 169.0)))
+    table = split_table(x, np.round(exact + np.random.default_rng(seed).normal(0.0, 3e-3, 180), 3), digit=1e-3)
+    assert table.corners == pytest.approx((95.0, 117.0, 221.0, 243.0), abs=0.6)
+    assert np.isinf(table.peaks[1].high)
+
+
+@pytest.mark.parametrize(("rows", "dwell"), [(73, 5.0), (72, 5.0), (91, 15.0), (121, 8.0)])
+def test_short_dwells_between_short_moves_of_coarse_tables_are_read(rows: int, dwell: float) -> None:
+    """Moves of some ten rows tell no noise from the motion: they had points far off, and began 20 deg too early."""
+    x, law = np.linspace(0.0, 360.0, rows), catalogue["cycloidal"].law
+    rise, back = (np.clip((x - start) / long, 0.0, 1.0) for start, long in ((30.0, 40.0), (70.0 + dwell, 35.0)))
+    table = split_table(x, np.round(3.2 * (law(rise) - law(back)), 3), digit=1e-3)
+    assert [part.law for part in table.stretches] == [None, "cycloidal", None, "cycloidal", None]
+    ends = [30.0, 70.0, 70.0 + dwell, 105.0 + dwell, 360.0]
+    assert [part.stop for part in table.stretches] == pytest.approx(ends, abs=0.1)
+    assert table.outliers == ()
+    assert table.peaks[1].holds(3.2 * 2.0 * np.pi / 35.0**2)
+
+
+@pytest.mark.parametrize(("noise", "digit", "rows"), [(0.0, 1e-3, 721), (2e-3, 1e-3, 721), (0.0, 1e-4, 361)])
+def test_a_return_that_stops_for_an_instant_is_two_laws(noise: float, digit: float, rows: int) -> None:
+    """As one move without a joint it spoilt the rise before it, whose place was 4 deg off, with a corner."""
+    x = np.linspace(0.0, 360.0, rows)
+    rise, first, second = (
+        np.clip((x - a) / (b - a), 0.0, 1.0) for a, b in ((50.0, 130.0), (130.0, 220.0), (220.0, 330.0))
+    )
+    cycloidal = catalogue["cycloidal"].law
+    exact = 20.0 * cycloidal(rise) - 8.0 * catalogue["3-4-5 polynomial"].law(first) - 12.0 * cycloidal(second)
+    y = exact + np.random.default_rng(1).normal(0.0, 1.0, rows) * noise
+    table = split_table(x, np.round(y / digit) * digit, digit=digit)
+    assert [part.law for part in table.stretches] == [None, "cycloidal", "3-4-5 polynomial", "cycloidal", None]
+    assert [part.stop for part in table.stretches] == pytest.approx([50.0, 130.0, 220.0, 330.0, 360.0], abs=0.5)
+
+
+@pytest.mark.parametrize("begin", [0.0, 40.0])
+def test_a_constant_velocity_over_the_seam_of_an_endless_table_is_one_line(begin: float) -> None:
+    """Its halves had velocities that differed by 0.007 %, so that a cycle of the table was refused."""
+    x = np.linspace(0.0, 360.0, 721)
+    at = x + begin
+    u, turns = np.clip((at % 360.0 - 90.0) / 270.0, 0.0, 1.0), at // 360.0
+    lift = 40.0 + 320.0 * (0.375 * u + 0.625 * u**3 * (10.0 - 15.0 * u + 6.0 * u**2))
+    y = np.where(at % 360.0 < 90.0, 40.0 * (at % 360.0) / 90.0, lift) + 360.0 * turns
+    y += np.random.default_rng(1).normal(0.0, 4e-3, 721)
+    y[-1] = y[0] + 360.0
+    table = split_table(x, y.round(3), digit=1e-3)
+    cycle = table.cycle(speed="200 rpm")
+    assert cycle.duration == pytest.approx(0.3)
+    velocities = [part.line for part in table.stretches if part.line is not None]
+    assert velocities == pytest.approx([4.0 / 9.0] * len(velocities), rel=1e-3)
+    assert np.ptp(velocities) <= 1e-12
+
+
+def test_a_standard_law_over_the_seam_is_itself_on_both_sides() -> None:
+    """Its parts were splines of 4 pieces, 36 digits off the points."""
+    x, law = np.arange(360.0), catalogue["4-5-6-7 polynomial"].law
+    z = (x + 100.0) % 360.0
+    exact = 18.0 * (law(np.clip((z - 60.0) / 90.0, 0.0, 1.0)) - law(np.clip((z - 190.0) / 100.0, 0.0, 1.0)))
+    table = split_table(x, np.round(exact, 4), digit=1e-4, turn=360.0)
+    assert table.off[0] <= 1e-4
+    assert all(
+        part.peaks[1].holds(law_of_move(part).constants.C.value * abs(part.stroke) / (part.stop - part.start) ** 2)
+        for part in table.moves
+    )

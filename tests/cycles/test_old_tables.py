@@ -122,7 +122,10 @@ def test_the_whole_cycle_is_compared_where_corners_were_taken_away() -> None:
         abs(part.stroke) / (part.stop - part.start) ** 2 * law_of_move(part).peak(2).value for part in blends
     )
     assert whole.new[1] == pytest.approx(steepest, rel=1e-12)
-    assert OldTableReport(old, new).data["gain_of_cycle"]["new"] == pytest.approx(list(whole.new))
+    data = OldTableReport(old, new).data
+    assert data["gain_of_cycle"]["new"] == pytest.approx(list(whole.new))
+    assert data["old_stretches"] == OldTableReport(old).data["stretches"]
+    assert len(data["stretches"]) > len(data["old_stretches"])
     assert [row[0] for row in OldTableReport(old, new).tables[1].rows[-3:]] == ["whole cycle", "", ""]
 
 

@@ -31,7 +31,7 @@ _SLOW = 0.01
 _CORNERS = ((True, True), (True, False), (False, True))
 #: of places at which a turn is looked for: where a corner is smoothed a fit may turn back
 _NEAR_END = CANDIDATES // 8
-#: parameters from which on corners are looked for where a spline begins and ends
+#: parameters of a likely spline from which on corners are looked for where it begins and ends
 _CORNERED = 12
 #: steps within which a corner is where the rows of a line end
 _NEAR_CORNER = 4.0
@@ -249,7 +249,8 @@ class _Search:
         """The search, joints and fits that leave lines or rests with other velocities where these are far likelier."""
         best, (before, after) = self.best(fits), self.fitter.ends
         sides = [(first, last) for first, last in _CORNERS if (before.line or not first) and (after.line or not last)]
-        if best.free <= _CORNERED or self.fitter.advance is not None:
+        simple = best.free <= _CORNERED and likely(best.squares, self.rows)
+        if simple or self.fitter.advance is not None:
             return self, joints, fits
         tried = {corners: each for corners in sides if (each := self._cornered(best, corners))[2]}
         corners = min(

@@ -192,7 +192,7 @@ def _begun(samples: Samples, crests: Sequence[float], advance: float) -> tuple[S
     if long or not goes_on(samples.places, samples.heights, samples.noise):
         return samples, rests
     # where a motion advances, what looks like a rest may be where it turns
-    lines = [*rests, *(lines_of(samples, 0, last) if advance else [])]
+    lines = [*rests, *(line for line in (lines_of(samples, 0, last) if advance else []) if not line.is_short)]
     if not lines:
         row = 0 if advance else int(np.argmin(samples.heights)) % last
         turn = samples.begun_at(row, advance) if row else samples
@@ -209,5 +209,6 @@ def _begun(samples: Samples, crests: Sequence[float], advance: float) -> tuple[S
     halves = Line(0, longest.last - row, longest.level), Line(last - row + longest.first, last, longest.level + advance)
     between = [rest for rest in inner if rest.first > halves[0].last and rest.last < halves[1].first]
     # a rest over the end of the table is one
-    over = [rest.first for rest in inner if rest.first < halves[1].first <= rest.last]
-    return turn, [halves[0], *between, replace(halves[1], first=min([halves[1].first, *over]))]
+    last_of_first = max([halves[0].last, *(rest.last for rest in inner if rest.first <= halves[0].last < rest.last)])
+    first_of_last = min([halves[1].first, *(rest.first for rest in inner if rest.first < halves[1].first <= rest.last)])
+    return turn, [replace(halves[0], last=last_of_first), *between, replace(halves[1], first=first_of_last)]

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from optlaws.cycles.old_tables.curve_fit import DEGREE, CurveFit, End, interpolation
-from optlaws.cycles.old_tables.fitting import EVIDENT, SIMPLE, UNRESOLVED, fits_of, likely, with_jumps
+from optlaws.cycles.old_tables.fitting import AS_LIKELY, EVIDENT, SIMPLE, UNRESOLVED, fits_of, likely, with_jumps
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
-from optlaws.cycles.old_tables.rests_and_lines import FEWEST, NOISE_ROOM, Line, lines_of
+from optlaws.cycles.old_tables.rests_and_lines import FEWEST, NOISE_ROOM, Line, joined_over_seam, lines_of
 from optlaws.cycles.old_tables.samples import MEDIAN, Samples, gaps_of, off_both_sides, turning_points
 from optlaws.cycles.old_tables.standard import JUMP, Chain, Outline, criterion, spline_of
 from optlaws.numbers import Array
@@ -29,6 +29,8 @@ _UNCERTAIN = 3.0
 _ROUNDED_LAW = 1e-3
 #: of the length of a turn: what is shorter is no move of its own
 SHORTEST = 1.0 / 3600.0
+#: of a turn: within it the end of a line is where the table begins, if that is as likely
+_ABOUT_SEAM = 0.01
 #: times what the means of windows show of a derivative that a fit has not, for means are less than peaks
 _MISSING = 1.5
 #: times the greatest peak of models: rows that have more speak against all of them
@@ -45,6 +47,8 @@ _ALONE = 0.5
 _BLENDS = np.arange(2.0, 65.0, 2.0)
 #: standard laws whose sums of squares differ by less are told apart by no table
 _ALIKE = 16.0
+#: steps of a chord are so much less than the rows of a region; of the greatest slope: it stops where chords have less
+_CHORDS, _STOPPED = 60, 0.05
 #: of a turn: the moves of one without rest begin so far off it
 _BEYOND_TURN = 0.1
 
@@ -197,10 +201,9 @@ class Region:
         """The moves of the region."""
         if self._has_few_rows:
             return self._few_rows() if self.moves_at_all else Parts([], self._resting(), 0, [])
-        lines, straight = lines_of(self.samples, self.first, self.last) if self.split else [], None
+        lines, straight = self._lines() if self.split else [], None
         while True:  # rows that are left out may have looked like turning points, and bent the fits
-            places = self._turns()
-            chains = self._chains(places)
+            places, chains = self._staged()
             if chains and self._left_out(chains[0]):
                 continue
             plain = bool(chains) and self._is_plain(chains[0])
@@ -222,15 +225,21 @@ class Region:
         squares, free = (fits[0].squares, fits[0].free) if fits else (0.0, len(self.x))
         return Parts(list(self._of_fits(fits, places, near)), squares, free, self.far)
 
+    def _lines(self) -> list[Line]:
+        lines = lines_of(self.samples, self.first, self.last)
+        return lines if self.advance is None else joined_over_seam(self.samples, lines, self.advance)
+
     def _fits(self, smooth: int | None = None) -> tuple[CurveFit, ...]:
         """Splines that explain its rows, maybe without joints and of so many pieces at most."""
         key = len(self.x), smooth
         if key not in self._known_fits:
             fits = tuple(fits_of(self.x, self.y, self.noise, self.ends, self.advance, smooth=smooth))
-            at_seam = self._ends_at_seam(fits)
-            if at_seam is not None:
-                self.ends = at_seam
-                fits = tuple(fits_of(self.x, self.y, self.noise, self.ends, self.advance, smooth=smooth))
+            for room in (_ABOUT_SEAM, SHORTEST):
+                at_seam = self._ends_at_seam(fits, room * float(np.ptp(self.samples.places)))
+                there = fits_of(self.x, self.y, self.noise, at_seam, self.advance, smooth=smooth) if at_seam else []
+                if there and (room == SHORTEST or there[0].squares <= fits[0].squares + AS_LIKELY):
+                    self.ends, fits = at_seam or self.ends, tuple(there)
+                    break
             self._known_fits[key] = fits
         return self._known_fits[key]
 
@@ -249,6 +258,29 @@ class Region:
         low, high = self.about
         return [low, *(float(self.x[i]) for i in turns if low < self.x[i] < high), high]
 
+    def _staged(self) -> tuple[list[float], list[Chain]]:
+        """Where it begins, turns and ends, or stops too, with standard laws between: of stages if these explain it."""
+        turns = self._turns()
+        chains = self._chains(turns)
+        if not chains or not self._is_plain(chains[0]):
+            stops = self._stops()
+            staged = sorted([*turns, *stops])
+            of_stages = self._chains(staged) if stops else []
+            if of_stages and self._is_plain(of_stages[0]):
+                return staged, of_stages
+        return turns, chains
+
+    def _stops(self) -> list[float]:
+        """About where the motion stops, and goes on the same way."""
+        wide = max(2, len(self.x) // _CHORDS)
+        if len(self.x) <= 4 * wide:
+            return []
+        velocity = (self.y[2 * wide :] - self.y[: -2 * wide]) / (self.x[2 * wide :] - self.x[: -2 * wide])
+        fast = np.abs(velocity) > _STOPPED * np.abs(velocity).max()
+        ends = np.flatnonzero(np.diff(fast.astype(np.int8)))
+        slow = [(i + 1, j) for i, j in pairwise(ends) if not fast[j] and velocity[i] * velocity[j + 1] > 0.0]
+        return [float(0.5 * (self.x[i + wide] + self.x[j + wide])) for i, j in slow]
+
     def _few_rows(self) -> Parts:
         """The corner of a region of few rows, or what goes through these."""
         if self._corner is None:
@@ -258,9 +290,9 @@ class Region:
         corner = FittedMove(place, place, height, height, (), "", "", slopes=slopes, corners=(True, True))
         return Parts([corner], squares, 0, [])
 
-    def _ends_at_seam(self, fits: Sequence[CurveFit]) -> tuple[End, End] | None:
-        """Its ends, of which one that moves about the seam is exactly there; None where there is none."""
-        room, ends = SHORTEST * float(np.ptp(self.samples.places)), list(self.ends)
+    def _ends_at_seam(self, fits: Sequence[CurveFit], room: float) -> tuple[End, End] | None:
+        """Its ends, of which one that moves within a room about the seam is exactly there; None where there is none."""
+        ends = list(self.ends)
         for side, end in enumerate(self.ends):
             at = (fits[0].start, fits[0].stop)[side] if fits else np.inf
             if end.slope and 0.0 < abs(at - self.seam) < room:
@@ -282,7 +314,7 @@ class Region:
             if not self.moves_at_all:
                 return Parts([], self._resting(), 0, [])
             return None if self._corner is None else self._few_rows()
-        chains = self._chains(self._turns())
+        _, chains = self._staged()
         return Parts([], chains[0].squares, chains[0].free, []) if chains and self._is_plain(chains[0]) else None
 
     def _regions(self, lines: Sequence[Line]) -> list[Region]:
@@ -293,19 +325,27 @@ class Region:
 
         None where a simple spline explains the rows.
         """
-        explained = self._explained_parts(lines)
+        explained = self._explained_parts([line for line in lines if not line.is_short])
         if explained:
             return explained
         smooth = self._fits(SIMPLE)
         if _is_simple(smooth) and likely(smooth[0].squares, len(self.x)):
             return None
-        parts = self._parts_between(lines)
         beside = zip(lines, pairwise(region.parts for region in self._regions(lines)), strict=True)
-        shorter = [line for line, (before, after) in beside if _is_between_longer(before, after)]
-        for line in sorted(shorter, key=lambda line: line.last - line.first):
+        apart = [(line, before, after) for line, (before, after) in beside]
+        # rows of a slow bend are on a short line as well, but not beside a corner
+        lines = [line for line, before, after in apart if not line.is_short or _is_at_corner(before, after)]
+        if not lines:
+            return None
+        parts = self._parts_between(lines)
+        doubtful = [line for line, before, after in apart if line.is_short or _is_between_longer(before, after)]
+        for line in sorted(set(doubtful) & set(lines), key=lambda line: line.last - line.first):
             others = [each for each in lines if each is not line]
-            without = self._parts_between(others) if others else parts
-            if self._criterion(without) < self._criterion(parts):
+            fits = self._fits() if line.is_short and not others else ()
+            without = self._parts_between(others) if others else fits[0] if fits else parts
+            if self._criterion(without) < self._criterion(parts) + EVIDENT * line.is_short:
+                if not isinstance(without, Parts):
+                    return None
                 lines, parts = others, without
         return parts
 
@@ -552,6 +592,11 @@ def regions(
         if key not in known:
             known[key] = Region(samples, *key[1:], seam, advance, split=split)
     return [known[key] for key in keys]
+
+
+def _is_at_corner(before: Parts, after: Parts) -> bool:
+    """Whether the velocity jumps where a line between two moves begins or ends."""
+    return any(move.corners[1] for move in before.moves[-1:]) or any(move.corners[0] for move in after.moves[:1])
 
 
 def _is_between_longer(before: Parts, after: Parts) -> bool:

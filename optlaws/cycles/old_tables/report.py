@@ -144,20 +144,7 @@ class OldTableReport:
     def data(self) -> dict[str, Any]:
         """The table for programs, with the gains of better laws."""
         old, new = self.table, self.new
-        stretches = [
-            {
-                **{name: getattr(part, name) for name in ("kind", "start", "stop", "low", "high")},
-                "law": part.law if part.law is None or isinstance(part.law, str) else part.law.to_dict(),
-                "nearest": part.nearest or None,
-                "distance": part.distance if part.nearest else None,
-                **(
-                    {"reason": part.reason, "sufficient_tolerance": part.sufficient_tolerance or None}
-                    if part.reason
-                    else {}
-                ),
-            }
-            for part in (new or old).stretches
-        ]
+        stretches = [_data_of(part) for part in (new or old).stretches]
         known = {name: getattr(old, name) for name in ("unit", "master", "room", "scatter", "seam")}
         peaks = [_plain(interval) for interval in old.peaks]
         facts = {"layout": old.layout, "points": len(old.places), **known, "stretches": stretches, "peaks": peaks}
@@ -176,7 +163,17 @@ class OldTableReport:
             for each in self._gains
         )
         *moves, whole = (each._asdict() | end for each, end in zip(self._gains, ends, strict=True))
-        return facts | {"gains": moves, "gain_of_cycle": whole}
+        before = [_data_of(part) for part in old.stretches]
+        return facts | {"old_stretches": before, "gains": moves, "gain_of_cycle": whole}
+
+
+def _data_of(part: Stretch) -> dict[str, Any]:
+    """A stretch for programs, with its law, and why it keeps this where it does."""
+    law = part.law if part.law is None or isinstance(part.law, str) else part.law.to_dict()
+    nearest = {"nearest": part.nearest or None, "distance": part.distance if part.nearest else None}
+    data = {"kind": part.kind, "start": part.start, "stop": part.stop, "low": part.low, "high": part.high}
+    reason = {"reason": part.reason, "sufficient_tolerance": part.sufficient_tolerance or None} if part.reason else {}
+    return data | {"law": law} | nearest | reason
 
 
 def _plain(interval: PeakInterval) -> dict[str, float | None]:

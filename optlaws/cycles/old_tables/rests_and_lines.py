@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -22,6 +23,8 @@ _SHORTEST_REST = 1.0 / 200.0
 _BENT = 14.0
 #: rows of a window in which a motion is looked at for constant velocity, and the share of rows that one has at least
 _WINDOW, _SHARE = 12, 0.06
+#: rows of a line that few rows show, and times what noise may bend windows about its ends at least
+_SHORT, _ABRUPT = 8, 15.0
 #: where a rest begins and ends within its run from -1 to 1, of which it has a quarter at least
 _TAILED = np.array(
     [(low, high) for low in np.linspace(-1.0, -0.1, 7) for high in np.linspace(1.0, 0.1, 7) if high - low >= 0.5]
@@ -43,6 +46,11 @@ class Line:
         """What an end of a curve takes."""
         return self.place, self.level, self.slope
 
+    @property
+    def is_short(self) -> bool:
+        """Whether so few rows are on it that those of a slow bend may be."""
+        return self.last - self.first < _WINDOW
+
 
 def rests_of(samples: Samples) -> list[Line]:
     """Runs of rows that rest as far as the noise tells, the longest ones first taken, in order."""
@@ -52,7 +60,9 @@ def rests_of(samples: Samples) -> list[Line]:
     runs = sorted(_level_runs(y, 2.0 * room), key=lambda run: run[0] - run[1])
     taken, fewest = np.zeros(len(y), dtype=bool), max(FEWEST, round(_SHORTEST_REST * len(y)))
     lines = []
-    for first, last in runs:
+    for run in runs:
+        few = run[1] - run[0] + 1 < FEWEST  # no crest has most of so few rows at one position
+        first, last = max(_equal_runs(y, *run), key=lambda each: each[1] - each[0]) if few else run
         exact = last - first + 1 >= _EXACT and np.ptp(y[first : last + 1]) == 0.0
         if (last - first + 1 < fewest and not exact) or taken[first : last + 1].any():
             continue
@@ -64,6 +74,12 @@ def rests_of(samples: Samples) -> list[Line]:
             inner = y[first + quarter : last + 1 - quarter]
             lines.append(Line(first, last, float(np.mean(inner))))
     return _levelled(sorted(lines, key=lambda rest: rest.first), size)
+
+
+def _equal_runs(y: Array, first: int, last: int) -> list[tuple[int, int]]:
+    """The runs of equal rows within a run."""
+    ends = [first, *(first + 1 + np.flatnonzero(np.diff(y[first : last + 1]))).tolist(), last + 1]
+    return [(low, high - 1) for low, high in pairwise(ends)]
 
 
 def _level_runs(y: Array, most: float) -> Iterator[tuple[int, int]]:
@@ -142,12 +158,9 @@ def lines_of(samples: Samples, first: int, last: int) -> list[Line]:
     rows = max(_WINDOW, count // 25)
     if count < 2 * rows:
         return []
-    size = np.maximum(sliding_window_view(noise, rows), samples.digit / np.sqrt(12.0)).max(axis=1)
-    bent = window_polynomials(sliding_window_view(x, rows), 3)[:, :, 2:]
-    bends = np.einsum("ijk,ij->ik", bent, sliding_window_view(y, rows))
-    straight = (bends**2).sum(axis=1) <= _BENT * size**2
+    size = float(np.maximum(noise, samples.digit / np.sqrt(12.0)).max())
     lines = list[Line]()
-    windows = np.flatnonzero(straight)
+    windows = np.flatnonzero(_bends(x, y, noise, rows, samples.digit) <= _BENT)
     # noise alone makes few windows beside each other bent
     runs = np.split(windows, np.flatnonzero(np.diff(windows) > rows // 2) + 1) if windows.size else []
     left = deque((int(run[0]), int(run[-1]) + rows - 1) for run in runs)
@@ -155,14 +168,61 @@ def lines_of(samples: Samples, first: int, last: int) -> list[Line]:
         begin, end = low, high = left.popleft()
         trim = max(1, (high - low) // 20)
         while high - low + 1 >= max(_WINDOW, count * _SHARE):
-            if _is_straight(x[low : high + 1], y[low : high + 1], float(size.max())):
+            if _is_straight(x[low : high + 1], y[low : high + 1], size):
                 line, low, high = _line(x, y, NOISE_ROOM * noise + 0.5 * samples.digit, low, high)
                 lines.append(Line(first + low, first + high, *line))
                 # in windows that are short beside noise a corner is not seen: others may be on its sides
                 left.extend([(begin, low), (high, end)])
                 break
             low, high = low + trim, high - trim
-    return _apart(samples.places, sorted(lines, key=lambda line: line.first), NOISE_ROOM * float(size.max()))
+    lines += _short_lines(samples, first, last, lines)
+    return _apart(samples.places, sorted(lines, key=lambda line: line.first), NOISE_ROOM * size)
+
+
+def _bends(x: Array, y: Array, noise: Array, rows: int, digit: float) -> Array:
+    """What polynomials of degrees 2 and 3 take off each window of rows, in variances of its noise."""
+    size = np.maximum(sliding_window_view(noise, rows), digit / np.sqrt(12.0)).max(axis=1)
+    bent = window_polynomials(sliding_window_view(x, rows), 3)[:, :, 2:]
+    return np.asarray((np.einsum("ijk,ij->ik", bent, sliding_window_view(y, rows)) ** 2).sum(axis=1) / size**2)
+
+
+def _short_lines(samples: Samples, first: int, last: int, lines: Sequence[Line]) -> Iterator[Line]:
+    """Lines of few rows, beside others, at either end of which rows bend abruptly."""
+    low, high = max(first - _SHORT, 0), min(last + _SHORT, len(samples.places) - 1)
+    x, y, noise = (row[low : high + 1] for row in (samples.places, samples.heights, samples.noise))
+    if len(x) < 2 * _SHORT:
+        return
+    bends = _bends(x, y, noise, _SHORT, samples.digit)
+    straight = np.flatnonzero(bends <= _BENT)
+    for run in np.split(straight, np.flatnonzero(np.diff(straight) > 1) + 1) if straight.size else []:
+        begin, end = int(run[0]), int(run[-1]) + _SHORT - 1
+        about = np.clip(np.array([begin, end]) - _SHORT // 2, 0, len(bends) - 1)
+        begin, end = max(begin, first - low), min(end, last - low)
+        few = end - begin + 1 < max(_SHORT, (last - first + 1) * _SHARE)
+        if few or np.all(bends[about] < _ABRUPT * _BENT):
+            continue
+        if all(line.last <= low + begin or low + end <= line.first for line in lines):
+            (level, place, slope), begin, end = _line(x, y, NOISE_ROOM * noise + 0.5 * samples.digit, begin, end)
+            yield Line(max(low + begin, first), min(low + end, last), level, place, slope)
+
+
+def joined_over_seam(samples: Samples, lines: Sequence[Line], advance: float) -> list[Line]:
+    """Lines of a whole turn, of which the last one and the first one of the next turn are one where rows say so."""
+    last = len(samples.places) - 1
+    if len(lines) < 2 or lines[0].first > 0 or lines[-1].last < last:
+        return list(lines)
+    turn = float(np.ptp(samples.places))
+    behind, before = slice(lines[-1].first, last), slice(0, lines[0].last + 1)
+    x = np.concatenate([samples.places[behind] - turn, samples.places[before]])
+    y = np.concatenate([samples.heights[behind] - advance, samples.heights[before]])
+    inner = slice(len(x) // 8, len(x) - len(x) // 8)
+    size = max(float(samples.noise.max()), samples.digit / np.sqrt(12.0))
+    if not _is_straight(x[inner], y[inner], size):
+        return list(lines)
+    place = float(x[inner].mean())
+    slope, level = map(float, np.polyfit(x[inner] - place, y[inner], 1))
+    first = replace(lines[0], level=level, place=place, slope=slope)
+    return [first, *lines[1:-1], replace(lines[-1], level=level + advance, place=place + turn, slope=slope)]
 
 
 def _apart(x: Array, lines: Sequence[Line], room: float) -> list[Line]:

@@ -32,6 +32,8 @@ _DEGREES_BESIDE, _FITTING = (2, 3, 4), 2.0
 _DEGREES_OVER_SEAM, _STEP = (3, 5, 7), 5.0
 #: in fewer rows, in orders of the differences, these tell the motion itself from noise nowhere
 _ROWS_TO_STAND_OUT = 6
+#: rows on each side of a point that are equal, where too few rows tell noise from the motion
+_EQUAL = 3
 #: a point far off is so from where either side goes on, by so much of the size that the filter gives it
 _BOTH = 0.35
 #: noise that is less, in standard deviations of rounding, may be rounding alone
@@ -142,6 +144,8 @@ def samples_of(places: Array, heights: Array, digit: float = 0.0) -> Samples:
         suspects = _far_points(x, heights, max(size, float(least.min())))
         if np.array_equal(suspects, before):
             break
+    if not _tell_noise(rests):
+        suspects = suspects & _is_between_equal(heights)
     return Samples(x, heights, unit, np.where(rests, least, np.maximum(size, least)), suspects)
 
 
@@ -368,6 +372,18 @@ def _rests_exactly(heights: Array) -> Mask:
         for first in np.flatnonzero(np.ptp(sliding_window_view(heights, width), axis=1) == 0.0):
             rests[first : first + width] = True
     return rests
+
+
+def _tell_noise(rests: Mask) -> bool:
+    """Whether rows beside those at rest are as many as differences need that tell noise from the motion."""
+    width = _ORDERS[0] + 1
+    return len(rests) >= width and int((~sliding_window_view(rests, width).any(axis=1)).sum()) >= _FEWEST
+
+
+def _is_between_equal(heights: Array) -> Mask:
+    """Which rows have a few equal ones before them, and the same behind them."""
+    beside = sliding_window_view(np.pad(heights, _EQUAL, constant_values=np.nan), 2 * _EQUAL + 1)
+    return np.asarray(np.ptp(np.delete(beside, _EQUAL, axis=1), axis=1) == 0.0)
 
 
 def _far_points(places: Array, heights: Array, noise: float) -> Mask:

@@ -41,7 +41,7 @@ _NEARLY, _CORNER = 0.2, 0.02
 #: of the greatest velocity or acceleration: by so much it jumps where moves meet
 JUMP = 1e-3
 #: parts of each piece of a law, each as a polynomial
-_PIECES_OF_LAW = 4
+_PIECES_OF_LAW = 16
 #: of the last digit: rows that are no farther off are the law's own
 _ROUNDED = 0.5001
 
