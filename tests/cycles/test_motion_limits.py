@@ -249,7 +249,7 @@ def test_the_fastest_cycle_and_the_fastest_move_never_turn_back_alike() -> None:
 @pytest.mark.parametrize(
     ("smooth", "degree"),
     [
-        ({}, 5),
+        ({}, 3),
         pytest.param({}, 9, marks=pytest.mark.long),
         pytest.param({"jerk": "900 m/s^3"}, 9, marks=pytest.mark.long),
     ],

@@ -177,7 +177,7 @@ def test_rounding_is_within_its_bound(folder: Path) -> None:
     near to it rounding happens to come: exact sums of coefficients in single precision break it, in each derivative.
     """
     export = exported("lift")
-    moves = drawn(export, 40, 32)
+    moves = drawn(export, 16, 32)
     coarse_by_more = np.zeros(4, dtype=np.bool_)
     for answer in answers(compiled("lift", folder), moves):
         status, place, share, stroke, duration = answer.plan[:5]

@@ -27,6 +27,7 @@ DRIVEN = Drive(TURNED, Motor("3e-4 kg m^2"), ratio=10, efficiency=0.92)
 RUBBING = replace(GEARED, mechanism=LOADED)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("drive", [GEARED, RUBBING, PRESS], ids=["geared", "rubbing", "press"])
 @pytest.mark.parametrize("stroke", [0.8, -0.8])
 def test_it_is_the_limit_of_the_phase_plane(drive: Drive, stroke: float) -> None:
@@ -59,7 +60,9 @@ def test_a_flywheel_that_bears_a_force_has_a_proven_bound() -> None:
     assert 0.997 * known < press.limit("peak torque", "0 deg", "360 deg", "0.9 s").value < known
 
 
-@pytest.mark.parametrize(("drive", "degree"), [(KNEE, 3), (DRIVEN, 2)], ids=["knee", "geared"])
+@pytest.mark.parametrize(
+    ("drive", "degree"), [pytest.param(KNEE, 3, marks=pytest.mark.long), (DRIVEN, 2)], ids=["knee", "geared"]
+)
 def test_a_cycle_of_least_torque_has_this_bound(drive: Drive | Mechanism, degree: int) -> None:
     given: dict[str, Any] = {"period": "1 s", "advance": "360 deg", "drive": drive, "minimise": "torque"}
     cycle = Cycle([Rise("360 deg", "0.8 s", law="modified sine"), Dwell()], **given)
