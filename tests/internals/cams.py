@@ -2,7 +2,7 @@
 
 from optlaws.cams import best_laws
 from optlaws.cams.as_manufactured import ArcChain, Following, PolarSpline, run_against, spline_through
-from optlaws.cams.best_laws import curvature_of, linear_limits
+from optlaws.cams.best_laws import linear_limits
 from optlaws.cams.curves import cam_files
 from optlaws.cams.curves.approximations import Arcs, Spline, arcs, even, polygon, spline, through
 from optlaws.cams.curves.cam_files import ENDINGS, FORMATS, polar, write_outline
@@ -14,3 +14,4 @@ from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.followers.rollers import RollerContact, SlidingRoller, SwingingRoller
 from optlaws.cams.forces import Surfaces
 from optlaws.cams.report import barrel_differences
+from optlaws.cams.roller_curvature import curvature_of
