@@ -571,6 +571,19 @@ def test_a_contradiction_that_rounding_alone_hides_is_not_called_false(window: W
     assert [claim["verdict"] for claim in checked([data, moved], tmp_path)] == ["not checked", "not proven"]
 
 
+def test_what_jumps_at_the_end_of_a_window_is_taken_from_before_it(tmp_path: Path) -> None:
+    window = Window("c", low=-1.0, high=1.0, start=0.0, stop=0.3)
+    problem = Problem(order=2, basis=Pieces((0.0, 0.3, 0.7, 1.0), 4, 1), symmetric=False, windows=(window,))
+    solution = synthesize(problem)
+    data = solution.certificate.to_dict()
+    moved = json.loads(json.dumps(data).replace(repr(0.3 - 2.0**-51), "0.3"))
+    assert moved != data
+    for result in checked([data, moved], tmp_path):
+        assert result["bound"] == pytest.approx(solution.objective, rel=1e-9)
+    value = exact_bound(Certificate.from_dict(moved))
+    assert float(value or 0) == pytest.approx(solution.objective, rel=1e-9)
+
+
 def test_of_the_power_over_pieces_no_more_is_proven_than_its_rows_permit(tmp_path: Path) -> None:
     breaks = (0.0, 0.17, 0.5, 0.83, 1.0)
     problems = [

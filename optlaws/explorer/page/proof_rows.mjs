@@ -12,6 +12,7 @@ const MEANS = { rms_c: 2, rms_j: 3, rms_snap: 4 };
 const ORDERS = { a: 0, b: 1, c: 2, j: 3 };
 const ROOT = "root of D";
 const NEAR = exact(1e-9);
+const BESIDE = exact(2 ** -51);
 /* The weights of an objective between which they are no part of its scale. */
 const LEAST_WEIGHT = 1e-3;
 const GREATEST_WEIGHT = 1e3;
@@ -288,7 +289,9 @@ export class Rows {
     if (!part || (side === "above") !== (sign > 0) || part.value) return null;
     const bound = sign > 0 ? part.high : part.low;
     if (bound === null || k.plus(NEAR).below(part.start) || part.stop.plus(NEAR).below(k)) return null;
-    const place = k.below(part.start) ? part.start : part.stop.below(k) ? part.stop : k;
+    // what a function has beyond a break where the window ends says nothing of the window
+    const last = this.laws.breaks.slice(1, -1).some((edge) => edge.same(part.stop)) ? part.stop.minus(BESIDE) : part.stop;
+    const place = k.below(part.start) ? part.start : last.below(k) ? last : k;
     const s = whole(sign);
     return this.#row(this.laws.values(part.nu, place), s, {}, s.times(bound));
   }

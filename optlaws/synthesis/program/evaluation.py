@@ -15,7 +15,7 @@ from optlaws.synthesis.problem.constants import B, Functional
 from optlaws.synthesis.problem.expression import Expression, Maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window
-from optlaws.tolerances import BOUND_FEASIBILITY
+from optlaws.tolerances import BESIDE_BREAK, BOUND_FEASIBILITY
 
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace
@@ -57,7 +57,10 @@ def evaluate(problem: Problem, law: MotionLaw) -> LawEvaluation:
 def _window_excess(window: Window, law: MotionLaw) -> tuple[float, float]:
     """Excess of a law above and below a window, in units of its scale."""
     if window.motion is None:
-        lowest, highest = law.extrema(window.nu, within=(window.start, window.stop))
+        # what the law has beyond breaks where the window begins and ends says nothing of the window
+        off, inner = 0.0 if window.value else BESIDE_BREAK / 2.0, law.breaks[1:-1]
+        start, stop = window.start + off * (window.start in inner), window.stop - off * (window.stop in inner)
+        lowest, highest = law.extrema(window.nu, within=(start, stop))
         return highest.value - window.high, window.low - lowest.value
     from optlaws.synthesis.functionals.kinds import greatest_along
 

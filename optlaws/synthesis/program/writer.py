@@ -335,7 +335,6 @@ class _Writer:
                         self.families.append(rows.scaled_down(unit))
 
     def _window(self, name: str, window: Window) -> None:
-        ends = (1.0 - 2.0 * window.stop, 1.0 - 2.0 * window.start)
         if window.value:
             self._value(repr(window), window.nu, window.start, window.high)
             return
@@ -343,7 +342,8 @@ class _Writer:
             if isfinite(bound):
                 side = names.window_side(name, sign)
                 family = self.space.derivative(window.nu, side, self.spare, bound, (sign,))
-                self.families.append(replace(family, domain=ends))
+                part = self.space.part(window.start, window.stop, (window.nu,))
+                self.families.append(replace(family, domain=part))
 
     def _power(self, power: PowerConstant, slack: Array, bound: float) -> None:
         """Rows b <= r sqrt(2k), b >= -r sqrt(2k) from either end, and 2 t r - t² <= D."""

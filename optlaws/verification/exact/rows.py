@@ -447,18 +447,18 @@ class ExactRows:
 
         def make(contact: Contact, k: Fraction) -> BallRow:
             bound = part.high if contact.sign > 0.0 else part.low
-            if bound is None or not part.start - _NEAR <= k <= part.stop + _NEAR:
+            if bound is None:
                 raise LookupError
-            values = self.space.values(part.order, min(max(k, part.start), part.stop))
+            values = self.space.values(part.order, self._within(k, part.start, part.stop))
             return BallRow([value * contact.sign for value in values], {}, -contact.sign * ball(bound))
 
         for sign in (1.0, -1.0):
             self._add(names.window_side(name, sign), make, (sign,))
 
     def _within(self, k: Fraction, start: Fraction, stop: Fraction) -> Fraction:
-        """A place on a formula's part; LookupError where it is beyond the ends by more than rounding.
+        """A place on a part of the interval; LookupError where it is beyond the ends by more than rounding.
 
-        What the formula has beyond a break where its part ends says nothing of the part.
+        What a function has beyond a break where the part ends says nothing of the part.
         """
         if start < stop and not start - _NEAR <= k <= stop + _NEAR:
             raise LookupError

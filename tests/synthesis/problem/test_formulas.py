@@ -293,13 +293,15 @@ def test_symmetric_laws_of_uneven_formulas_survive_text() -> None:
     ("asked", "optimum"),
     [
         ({"windows": (Window("1*c", low=-1.0, high=1.0, start=0.0, stop=0.3),)}, 7.382077137),
+        ({"windows": (Window("c", low=-1.0, high=1.0, start=0.0, stop=0.3),)}, 7.382077137),
+        ({"windows": (Window("c", low=-1.0, high=1.0, start=0.3, stop=0.7),)}, 4.634920635),
         ({"bounds": {peak("c", stop=0.3): at_most(1.0)}}, 7.382077137),
         ({"bounds": {peak("c*(1 + k)", stop=0.3): at_most(1.0)}}, 7.518154876),
         ({"bounds": {peak("c^2 + b", stop=0.3): at_most(1.0)}}, 7.462285772),
     ],
 )
 def test_a_limit_on_a_part_says_nothing_of_what_jumps_at_its_end(asked: dict[str, Any], optimum: float) -> None:
-    """The numbers are those of parts that end 1e-7 before the break, where the acceleration does not jump."""
+    """The numbers are those of parts that end 1e-7 within the breaks, to the digits that this leaves."""
     problem = Problem(order=2, basis=Pieces([0.0, 0.3, 0.7, 1.0], 4, 1), minimise="C", symmetric=False, **asked)
     solution = synthesize(problem)
     assert solution.status == "optimal"
