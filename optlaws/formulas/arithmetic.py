@@ -142,10 +142,6 @@ _OPERATIONS: dict[type[Formula], Callable[[Any, list[Any], Mapping[str, Any], Ar
 }
 
 
-def _numpy_power(base: Any, exponent: Any) -> Any:
-    return np.power(np.asarray(base, dtype=np.float64), exponent)
-
-
 def _table(table: Table, at: Any) -> Any:
     coefficients, places = pieces(table), np.array(table.places)
     piece = np.clip(np.searchsorted(places, at, side="right") - 1, 0, len(places) - 2)
@@ -275,7 +271,7 @@ NUMPY = Arithmetic(
         "min": np.minimum,
         "norm": np.hypot,
     },
-    power=_numpy_power,
+    power=lambda base, exponent: np.power(np.asarray(base, dtype=np.float64), exponent),
     table=_table,
 )
 

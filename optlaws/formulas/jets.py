@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import reduce
 from math import factorial, pi
+from operator import truediv
 from typing import Any
 
 import numpy as np
@@ -91,11 +92,6 @@ def _table(table: Table, at: Jet) -> Jet:
     return _of_enclosures(outer, at)
 
 
-def _tangent(x: Jet) -> Jet:
-    sine, cosine = x.waves()
-    return sine / cosine
-
-
 def _logarithm(x: Jet) -> Jet:
     return _by_rate("log", x, lambda _, argument: 1.0 / argument)
 
@@ -107,7 +103,7 @@ def _exponential(x: Jet) -> Jet:
 _FUNCTIONS: dict[str, Callable[..., Jet]] = {
     "sin": lambda x: x.waves()[0],
     "cos": lambda x: x.waves()[1],
-    "tan": _tangent,
+    "tan": lambda x: truediv(*x.waves()),
     "atan": Jet.arctangent,
     "sqrt": Jet.root,
     "exp": _exponential,

@@ -133,10 +133,6 @@ def _arcsine(of: Traced) -> Traced:
     return Traced(Call("atan", ((of / (1.0 - of * of) ** 0.5).formula,)))
 
 
-def _arccosine(of: Traced) -> Traced:
-    return np.pi / 2.0 - _arcsine(of)
-
-
 def _arctangent(y: Traced, x: Traced) -> Traced:
     """The angle of a point, which must not come to the negative half of the first axis."""
     return 2.0 * Traced(Call("atan", ((y / (x + (x * x + y * y) ** 0.5)).formula,)))
@@ -159,7 +155,7 @@ _UFUNCS: dict[str, Callable[..., Traced]] = {
     "maximum": _several("max"),
     "minimum": _several("min"),
     "arcsin": _arcsine,
-    "arccos": _arccosine,
+    "arccos": lambda x: np.pi / 2.0 - _arcsine(x),
     "arctan2": _arctangent,
     "deg2rad": lambda x: x * (np.pi / 180.0),
     "radians": lambda x: x * (np.pi / 180.0),

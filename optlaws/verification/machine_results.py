@@ -233,7 +233,8 @@ def _total(shares: Sequence[_Share], period: float, objective: Any, end: int | N
     if objective.mean:
         square = sum((time * size**2 for time, size in sizes), Fraction(0)) / Fraction(period)
         return nextafter(sqrt(rounded_up(square) if side > 0.0 else rounded_down(square)), side)
-    total = sum((size for _, size in sizes), Fraction(0)) if _is_sum(objective) else max(size for _, size in sizes)
+    summed = objective.kind.name in {"ENERGY", "HEAT"}
+    total = sum((size for _, size in sizes), Fraction(0)) if summed else max(size for _, size in sizes)
     return rounded_up(total) if side > 0.0 else rounded_down(total)
 
 
@@ -266,10 +267,6 @@ def _shares(plan: Any, known: Sequence[Verification], bounds: Sequence[float | N
             return None
         shares.append(_Share(piece.duration, ends, ends[0] if ends else Fraction(0)))
     return shares
-
-
-def _is_sum(objective: Any) -> bool:
-    return objective.kind.name in {"ENERGY", "HEAT"}
 
 
 def _quantity(value: Any, ends: Sequence[float]) -> tuple[Fraction, ...] | None:

@@ -92,7 +92,8 @@ def rows(space: LawSpace, side: Side, slack: Array, bound: float) -> LinearFamil
         family = space.combination(lowest, combined, side.name, slack, bound, signs=side.signs)
         return replace(family, domain=(max(domain[0], family.domain[0]), min(domain[1], family.domain[1])))
     edges = edges_of(space, motion)
-    series = [_series(space, motion, ends) for ends in pairwise(edges)]
+    places = [_between(ends, nodes(count_of(space, motion, ends))) for ends in pairwise(edges)]
+    series = [from_values(columns(space, motion, u)) for u in places]
     stacked = np.zeros((len(series), max(map(len, series)), space.terms + 1))
     for i, coefficients in enumerate(series):
         stacked[i, : len(coefficients)] = coefficients
@@ -122,12 +123,6 @@ def _between(ends: tuple[float, float], x: Array) -> Array:
     """The u of places from -1 to 1."""
     high, low = ends
     return np.asarray(low + (x + 1.0) * (high - low) / 2.0)
-
-
-def _series(space: LawSpace, motion: MotionFormula, ends: tuple[float, float]) -> Array:
-    """Chebyshev series between two u, in what runs from -1 at the lesser to 1."""
-    count = count_of(space, motion, ends)
-    return from_values(columns(space, motion, _between(ends, nodes(count))))
 
 
 def gauss(space: LawSpace, motion: MotionFormula) -> tuple[Array, Array]:

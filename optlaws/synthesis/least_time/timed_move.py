@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from math import comb, factorial, inf, nextafter
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, ValueOf, declared, entry
@@ -177,10 +177,6 @@ class Timed:
         return self.problem.boundary
 
 
-def _space(value: Any) -> Problem:
-    return value if isinstance(value, Problem) else problem_of(value)
-
-
 @declared
 class TimedMove(Timed, Declared, title="a move"):
     """A move of which the time is sought: the space of its laws, its stroke, its limits and its motion at the ends.
@@ -195,7 +191,9 @@ class TimedMove(Timed, Declared, title="a move"):
     newer = ("torque", "residual", "end_acceleration", "end_jerk")
 
     problem: Problem = entry(
-        ReadBy(_space, "a `Problem`", Problem.to_dict),
+        ReadBy(
+            lambda given: given if isinstance(given, Problem) else problem_of(given), "a `Problem`", Problem.to_dict
+        ),
         "Order, basis, windows and shape of the laws; it bounds none of the limited constants.",
         name="space",
     )

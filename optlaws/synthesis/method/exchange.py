@@ -19,7 +19,7 @@ from optlaws.numerics.cones import INFEASIBLE, SOLVED
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.energy import EnergyFamily
-from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, Program
+from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.method.contacts import polished
 from optlaws.synthesis.method.discretised.answer import Answer
@@ -238,7 +238,8 @@ class _Exchange:
             # what its method alone needs
             from optlaws.synthesis.method.discretised.ipopt import solve_on_points
 
-            fine = self.count > 1 and _only(program, LinearFamily, ConeFamily, EnergyFamily)
+            kinds = (LinearFamily, ConeFamily, EnergyFamily)
+            fine = self.count > 1 and all(isinstance(family, kinds) for family in program.families)
             answer = solve_on_points(program, points, self.start, fine=fine)
             yield answer if answer.usable or not fine else solve_on_points(program, points, self.start)
         elif self.convex:
@@ -294,11 +295,6 @@ def answer_on_points(
     from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
 
     return stepwise_on_points(program, points, np.zeros(program.size) if start is None else start, settled)
-
-
-def _only(program: Program, *kinds: type[ConstraintFamily]) -> bool:
-    """Whether every family is of one of these kinds."""
-    return all(isinstance(family, kinds) for family in program.families)
 
 
 def _excess(program: Program, x: Array) -> float:

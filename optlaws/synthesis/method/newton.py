@@ -92,7 +92,7 @@ def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> Ac
     if near is None:
         return None
     optimum, moved = _iterated(program, _rounded(program, near), integrals)
-    if optimum is None or _distance(near, optimum) > _NEWTON_SAME:
+    if optimum is None or np.abs(near.x - optimum.x).max() > _NEWTON_SAME * max(1.0, np.abs(near.x).max()):
         optimum, moved = _iterated(program, near, integrals)
     return optimum if optimum is not None and _have_all_kinks(optimum.x, moved) else None
 
@@ -190,11 +190,6 @@ def _rounded(program: Program, state: ActiveSet) -> ActiveSet:
 def _with_few_digits(numbers: Array) -> Array:
     grid = _DIGITS / power_of_two(float(np.abs(numbers).max(initial=1.0)))
     return np.asarray(np.round(numbers * grid) / grid)
-
-
-def _distance(first: ActiveSet, last: ActiveSet) -> float:
-    """The distance of the variables of two optima, as a share of the greatest."""
-    return float(np.abs(first.x - last.x).max() / max(1.0, np.abs(first.x).max()))
 
 
 def _conditions(program: Program, state: ActiveSet, integrals: _Integrals) -> tuple[Array, Array]:
