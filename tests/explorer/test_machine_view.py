@@ -8,14 +8,13 @@ from math import hypot, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import msgspec
 import numpy as np
 import pytest
 
 from optlaws import Cycle, Drive, InputError
 from tests.explorer.talk import Server
 from tests.explorer.test_page import go, saves, settle
-from tests.internals.explorer import FileRequest, cycle_view, downloads, law_view, machine_view, start
+from tests.internals.explorer import cycle_view, law_view, machine_view, start
 from tests.internals.jobs import read_of_cycle_entries
 
 if TYPE_CHECKING:
@@ -248,19 +247,6 @@ def test_while_the_gear_is_dragged_the_page_shows_the_law_before_and_then_the_op
     bodies = [each.post_data or "" for each in sent if each.url.endswith("api/machine")]
     assert '"laws":' in bodies[0]
     assert '"laws":' not in bodies[-1]
-
-
-def test_files_of_a_machine_are_its_study_and_python_that_makes_it(tmp_path: Path) -> None:
-    asked = cycle_view.CycleRequest(study=study("cycle_geared_table"), axis=0)
-    files = {
-        kind: downloads.answer(FileRequest(kind=kind, view="machine", request=msgspec.Raw(msgspec.json.encode(asked))))
-        for kind in ("problem", "python")
-    }
-    assert tomllib.loads(files["problem"]["text"]) == asked.study
-    code = files["python"]["text"].replace("cycle.png", str(tmp_path / "cycle.png"))
-    made: dict[str, Any] = {}
-    exec(compile(code, "machine.py", "exec"), made)  # noqa: S102 - our own
-    assert made["cycle"].sheet == cycle_view.cycle(asked).sheet
 
 
 def test_a_gear_a_motor_and_laws_are_changed_in_the_page(page: Page, served: Server) -> None:
