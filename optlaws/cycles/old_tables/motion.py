@@ -9,7 +9,14 @@ from itertools import pairwise
 import numpy as np
 
 from optlaws.cycles.old_tables.region import FittedMove, Parts, Region, regions
-from optlaws.cycles.old_tables.rests_and_lines import FEWEST, NOISE_ROOM, Line, lines_of, rests_of
+from optlaws.cycles.old_tables.rests_and_lines import (
+    FEWEST,
+    NOISE_ROOM,
+    Line,
+    lines_of,
+    rests_of,
+    variance_of_level_rows,
+)
 from optlaws.cycles.old_tables.samples import Samples, goes_on, variance_about_spline
 
 #: rows between two rests at one level that are so few are far off it, and no motion
@@ -17,7 +24,7 @@ _FEW_BETWEEN = 3
 #: of the length of a turn: places that are nearer are the same
 _SAME = 1e-9
 #: rows from which on a spline shows the noise; and variance over that by differences that may be noise and no motion
-_MANY, _MORE_NOISE = 100, 1.5
+_MANY, _MORE_NOISE, _MORE_NOISE_AT_REST = 100, 1.5, 4.0
 #: of a turn: rests that are shorter are looked at as crests too, or for standard laws alone
 _SHORT, _NOT_LONG = 0.05, 0.1
 #: times what noise leaves open: an advance is rounded to what is more, 10, 1, 0.1 and so on
@@ -38,7 +45,9 @@ def motion_of(samples: Samples) -> FittedMotion:
     clean = samples.without(samples.suspects)
     if len(clean.places) <= _MANY:
         return _motion_of(samples, clean, 1.0)
-    if 1.0 < (about := variance_about_spline(clean)) <= _MORE_NOISE:
+    if (about := variance_about_spline(clean)) > _MORE_NOISE:  # of moves of few rows
+        about = variance_of_level_rows(clean)
+    if 1.0 < about <= _MORE_NOISE_AT_REST:
         return _motion_of(samples, clean, about)
     motion = _motion_of(samples, clean, 1.0)
     certain = 1.0 + 3.0 * np.sqrt(2.0 / len(clean.places))

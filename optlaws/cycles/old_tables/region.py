@@ -263,23 +263,27 @@ class Region:
         turns = self._turns()
         chains = self._chains(turns)
         if not chains or not self._is_plain(chains[0]):
-            stops = self._stops()
-            staged = sorted([*turns, *stops])
-            of_stages = self._chains(staged) if stops else []
-            if of_stages and self._is_plain(of_stages[0]):
-                return staged, of_stages
+            stops = self._stops(turns)
+            for some in (some for count in range(1, len(stops) + 1) for some in combinations(stops, count)):
+                staged = sorted([*turns, *some])
+                of_stages = self._chains(staged)
+                if of_stages and self._is_plain(of_stages[0]):
+                    return staged, of_stages
         return turns, chains
 
-    def _stops(self) -> list[float]:
-        """About where the motion stops, and goes on the same way."""
+    def _stops(self, turns: Sequence[float]) -> list[float]:
+        """About where the motion stops, and goes on the same way, not near where it turns."""
         wide = max(2, len(self.x) // _CHORDS)
         if len(self.x) <= 4 * wide:
             return []
         velocity = (self.y[2 * wide :] - self.y[: -2 * wide]) / (self.x[2 * wide :] - self.x[: -2 * wide])
-        fast = np.abs(velocity) > _STOPPED * np.abs(velocity).max()
-        ends = np.flatnonzero(np.diff(fast.astype(np.int8)))
-        slow = [(i + 1, j) for i, j in pairwise(ends) if not fast[j] and velocity[i] * velocity[j + 1] > 0.0]
-        return [float(0.5 * (self.x[i + wide] + self.x[j + wide])) for i, j in slow]
+        fast = np.flatnonzero(np.abs(velocity) > _STOPPED * np.abs(velocity).max())
+        stops, far = list[float](), 2.0 * wide * float(np.median(np.diff(self.x)))
+        for i, j in pairwise(fast.tolist()):
+            stop = float(0.5 * (self.x[i + wide] + self.x[j + wide]))
+            if j > i + 1 and velocity[i] * velocity[j] > 0.0 and min(abs(stop - at) for at in [*turns, *stops]) > far:
+                stops.append(stop)
+        return stops
 
     def _few_rows(self) -> Parts:
         """The corner of a region of few rows, or what goes through these."""

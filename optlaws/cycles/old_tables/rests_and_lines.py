@@ -17,6 +17,8 @@ from optlaws.numbers import Array
 NOISE_ROOM = 4.0
 #: rows of a rest at least, and of one whose rows are all equal
 FEWEST, _EXACT = 8, 4
+#: rows of a run at one level that show the noise, and the degree of the polynomial about which they do
+_LONG, _RUN_DEGREE = 40, 4
 #: of all rows: in noise, fewer do not tell a rest from the slow beginning of a move
 _SHORTEST_REST = 1.0 / 200.0
 #: sum of squares that a polynomial of degree 4 takes off noise by chance
@@ -74,6 +76,17 @@ def rests_of(samples: Samples) -> list[Line]:
             inner = y[first + quarter : last + 1 - quarter]
             lines.append(Line(first, last, float(np.mean(inner))))
     return _levelled(sorted(lines, key=lambda rest: rest.first), size)
+
+
+def variance_of_level_rows(samples: Samples) -> float:
+    """The variance of the longest run at one level about a polynomial, over that of the noise; 0 where it is short."""
+    room = NOISE_ROOM * float(samples.noise.max()) + 0.5 * samples.digit
+    first, last = max(_level_runs(samples.heights, 2.0 * room), key=lambda run: run[1] - run[0])
+    if last - first + 1 < _LONG:
+        return 0.0
+    x, y, noise = (row[first : last + 1] for row in (samples.places, samples.heights, samples.noise))
+    off = np.polynomial.Polynomial.fit(x, y, _RUN_DEGREE)(x) - y
+    return float(((off / noise) ** 2).sum() / (len(x) - _RUN_DEGREE - 1))
 
 
 def _equal_runs(y: Array, first: int, last: int) -> list[tuple[int, int]]:
