@@ -240,6 +240,14 @@ def test_the_last_points_of_a_front_of_residuals_over_a_band_are_proven(
     assert verify(solution.to_dict()).proven
 
 
+@pytest.mark.parametrize("at", [0.27, 0.3, 0.33])
+def test_a_value_beside_an_integral_is_proven_whatever_rounding_makes_of_its_sizes(at: float) -> None:
+    minimise = f"value(c^2 + 1.5*b, at={at}) + 0.02*integral(c^2)"
+    solution = synthesize(Problem(order=4, basis=Chebyshev(9), minimise=minimise))
+    assert solution.status.value == "optimal"
+    assert 0.0 <= solution.gap <= 1e-9
+
+
 @pytest.mark.long
 def test_an_amplitude_of_a_spread_that_nearly_vanishes_is_proven() -> None:
     problem = Problem(order=5, basis=BSplines(10, 3, 2), minimise=SLOW.residual(spread=0.05), symmetric=False)

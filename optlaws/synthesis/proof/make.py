@@ -229,7 +229,7 @@ def _leaving(model: Model, optimum: ActiveSet) -> Iterator[Certificate]:
     for i, multiplier in zip(optimum.family, optimum.multipliers, strict=True):
         pulled += multiplier * program.families[i].slack
     for name, place in model.places.items():
-        if pulled[place] > 0.0 and least.get(name, -np.inf) >= 0.0 and any(sublevel.means_by(name)):
+        if pulled[place] > 0.0 and least.get(name, -np.inf) >= 0.0 and sublevel.means({name: 1.0}):
             for share in _LEFT_SHARES:
                 cost = program.objective.copy()
                 cost[place] -= share * pulled[place]
