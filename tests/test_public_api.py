@@ -93,10 +93,6 @@ def test_every_parameter_is_documented() -> None:
     assert {name: missing for name, one in CALLABLES.items() if (missing := undocumented(one))} == {}
 
 
-def test_every_public_method_says_what_it_is() -> None:
-    assert [name for name, method in METHODS.items() if not inspect.getdoc(method)] == []
-
-
 def refusal(function: Callable[..., Any]) -> str:
     """What is said of a keyword that there is not."""
     try:

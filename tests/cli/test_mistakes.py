@@ -35,12 +35,17 @@ CHANGED = {
     "rows.toml": ('speed = "100 rpm"', 'speed = "100 rpm"\nrows = 1'),
     "limit.toml": ('name = "slide"', 'name = "slide"\nlimits = { acceleration = "0 m/s^2" }'),
     "drive.toml": ('name = "slide"', 'name = "slide"\ndrive = { mass = "-2 kg" }'),
+    "rack.toml": (
+        'name = "slide"',
+        'name = "slide"\nmechanism = { kind = "rack", radius = "20 mm", mass = "12 kg", colomb = "1 N" }',
+    ),
     "export.toml": ('name = "slide"', 'name = "slide"\n[[axis.export]]\nto = "csv"\npoints = 10000000'),
 }
 TABLE = ROOT / "problems" / "cycle_rotary_table.toml"
 FILES = {
     **{name: CYCLE.replace(old, new) for name, (old, new) in CHANGED.items()},
     "empty.json": "{}",
+    "small.toml": "[problem]\norder = 3\n",
     "wrong.toml": "[problem]\norder = 2\n[vary]\nB = []\n",
     "open.json": "{",
     "list.json": "[]",
@@ -129,6 +134,11 @@ SAID = {
     "solve --degree 3 --most rms_c": "such as rms_c=4",
     "solve --degree 3 --most rmsc=4": "did you mean",
     "solve --degree 3 --inflexion 2": "between 0 and 1",
+    "solve --degree 5 --start 0,0": "as many values at the start as at the end, at least one; got 2 and 0",
+    "solve --degree 5 --start 0,x --end 1,0": "start and end are numbers",
+    "solve --degree 5 --order 3 --start 0,1 --end 1,0": "order 3 does not fit 2",
+    "solve --degree 5 --order 4 --window 'b < 1'": "a window is written as",
+    "solve --degree 5 --order 4 --window 'q <= 1'": "unknown quantity 'q'",
     "front --order 2 --bound tight --gap 1e-6": "give one of them",
     "front --order 4 --between 1.6 1.8 --within 1e-2 --name lift --output lift.st": "say --to c99 or --to iec-st",
     "law --z '1 2 x' --order 4": "'x'",
@@ -208,6 +218,13 @@ SAID = {
     f"{LIFT} --frequency 30": "frequency",
     f"{LIFT} --frequency 30Hz --frequency 30Hz --frequency 30Hz": "once, or twice",
     f"{LIFT} --law 'modified sin'": "did you mean 'modified sine'",
+    "cycle rack.toml": "rack.toml: axis slide: mechanism: unknown entry of a rack 'colomb'; did you mean 'coulomb'",
+    "cycle lever_nomogram --json": "lever_nomogram",
+    **{
+        f"{command} --out /dev/null/there": "cannot write /dev/null/there"
+        for command in ("study small.toml", "run cycle_press", "cycle cycle_press")
+    },
+    "new drive new.toml --efficiency 1.2": "--efficiency",
     "new cycle --stroke 35": "a length such as '35 mm' or an angle such as '45 deg', got '35' without a unit",
     "new cycle --stroke '35 kg'": "--stroke must be a length such as '35 mm' or an angle",
     "new cycle --stroke '0 mm'": "--stroke must be above 0",
@@ -233,6 +250,8 @@ SAID = {
     "new lever": "lever",
     "run": "at least one problem file",
     "run none.toml": "cannot read none.toml",
+    "run savin_familys": "did you mean 'savin_families'?",
+    "verify .": "folder",
     "run still.toml still.toml --out results": "--out",
     **{f"{command} anything --json": text for command, text in RETIRED.items()},
 }

@@ -228,10 +228,8 @@ def test_a_cam_begins_with_less_torque_at_its_shaft_than_by_modified_sine(number
     assert gains["least prime circle"] <= 0.0
 
 
-def test_a_drive_begins_with_the_efficiency_of_its_gear(capsys: Capture) -> None:
+def test_a_drive_begins_with_the_efficiency_of_its_gear() -> None:
     assert exit_code(["new", "drive", "a.toml", "--efficiency", "0.9"]) == 0
     assert exit_code(["new", "drive", "b.toml"]) == 0
     assert "\nefficiency = 0.9\n" in Path("a.toml").read_text("utf-8")
     assert "\n# efficiency = 0.95\n" in Path("b.toml").read_text("utf-8")
-    assert exit_code(["new", "drive", "c.toml", "--efficiency", "1.2"]) == 2
-    assert "--efficiency" in capsys.readouterr().err

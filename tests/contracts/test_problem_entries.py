@@ -204,21 +204,6 @@ def test_the_commands_tell_of_misspelt_options(name: str, capsys: pytest.Capture
     assert option in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(
-    ("options", "says"),
-    [
-        (["--degree", "5", "--start", "0,0"], "as many values at the start as at the end, at least one; got 2 and 0"),
-        (["--degree", "5", "--start", "0,x", "--end", "1,0"], "start and end are numbers"),
-        (["--degree", "5", "--order", "4", "--window", "b < 1"], "a window is written as"),
-        (["--degree", "5", "--order", "4", "--window", "q <= 1"], "unknown quantity 'q'"),
-        (["--degree", "5", "--order", "3", "--start", "0,1", "--end", "1,0"], "order 3 does not fit 2"),
-    ],
-)
-def test_the_command_tells_what_is_wrong(options: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert exit_code(["solve", *options]) == 2
-    assert says in capsys.readouterr().err
-
-
 def test_nobody_is_told_of_an_order_that_nobody_gave() -> None:
     with pytest.raises(InputError, match=r"B must be a finite number above 1 .*, got '1\.8'"):
         Problem(B="1.8")  # type: ignore[arg-type]

@@ -1,7 +1,6 @@
 """Cycles are values and plans answer them: what is forwarded, stored, copied, and read from files and lines."""
 
 import copy
-import os
 import pickle
 from collections.abc import Callable
 from dataclasses import FrozenInstanceError, replace
@@ -40,8 +39,6 @@ from optlaws import (
     synthesize,
 )
 from optlaws.verification import verify_all
-from tests.documents import ROOT
-from tests.internals.cli import exit_code
 from tests.internals.cycles import Answers, answer
 from tests.internals.files import reading
 from tests.internals.jobs import read_of_cycle_entries as read
@@ -385,20 +382,6 @@ def test_all_is_drawn_into_one_pair_of_axes_with_the_limits() -> None:
     assert any(line.get_linestyle() == "--" for line in axes.lines)
     with pytest.raises(InputError, match="one pair of axes or into four, got 2"):
         PRESS.plot(list(Figure().subplots(2, 1)))
-
-
-@pytest.mark.skipif(os.geteuid() == 0 and not Path("/dev/null").exists(), reason="needs a place that takes no folder")
-def test_results_that_could_not_be_written_are_refused_before_solving(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
-    file = ROOT / "problems" / "cycle_press.toml"
-    study = tmp_path / "study.toml"
-    study.write_text("[problem]\norder = 3\n", "utf-8")
-    assert exit_code(["study", str(study), "--out", "/dev/null/there"]) == 2
-    assert "cannot write /dev/null/there" in capsys.readouterr().err
-    for command in ("run", "cycle"):
-        assert exit_code([command, str(file), "--out", "/dev/null/there"]) == 2
-        assert "cannot write /dev/null/there" in capsys.readouterr().err
 
 
 def test_a_law_is_given_by_its_json_text_in_files_too(tmp_path: Path) -> None:

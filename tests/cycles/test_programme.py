@@ -197,13 +197,6 @@ def test_the_command_tells_a_program_what_the_cycle_is(capsys: pytest.CaptureFix
     assert output["segments"][0]["velocity"] <= 0.616 * (1 + 1e-9)
 
 
-def test_a_file_of_another_job_is_refused(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    file = tmp_path / "problem.toml"
-    file.write_text((ROOT / "problems" / "lever_nomogram.toml").read_text("utf-8"), "utf-8")
-    assert exit_code(["cycle", str(file), "--json"]) == 2
-    assert "problem.toml" in capsys.readouterr().err
-
-
 def test_a_cycle_is_written_with_the_law_of_a_file_not_with_its_name(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

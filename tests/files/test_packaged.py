@@ -52,8 +52,6 @@ def test_a_packaged_problem_is_run_by_its_name(
     assert exit_code(["run", "savin_families"]) == 0
     assert "results/savin_families/table.csv" in capsys.readouterr().out
     assert (tmp_path / "results" / "savin_families" / "figure.svg").is_file()
-    assert exit_code(["run", "savin_familys"]) == 2
-    assert "did you mean 'savin_families'?" in capsys.readouterr().err
 
 
 def test_commands_of_a_job_take_packaged_problems_by_name_and_by_place(

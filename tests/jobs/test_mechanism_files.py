@@ -326,15 +326,6 @@ def test_a_motor_without_a_mechanism_is_refused() -> None:
         driven(None, DRIVE)
 
 
-def test_the_command_tells_the_file_and_the_entry(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    file = tmp_path / "driven.toml"
-    press = Cycle([Rise("45 deg", "0.2 s"), Return()], period="0.5 s", drive=KINDS["belt"][1], minimise="rms torque")
-    file.write_text(press.to_toml("Driven").replace("coulomb", "colomb"), "utf-8")
-    assert exit_code(["cycle", str(file)]) == 2
-    text = capsys.readouterr().err
-    assert "driven.toml: axis axis: mechanism: unknown entry of a table 'colomb'; did you mean 'coulomb'" in text
-
-
 TURNTABLE = """
 job = "cycle"
 title = "Table"

@@ -95,14 +95,6 @@ def test_what_cannot_be_built_is_said_by_its_name() -> None:
         built(Problem.from_dict, {"B": 0.5, "order": 3}, "problem")
 
 
-def test_a_file_that_is_not_there_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert exit_code(["verify", str(tmp_path / "none.json")]) == 2
-    assert "none.json" in capsys.readouterr().err
-    assert exit_code(["verify", str(tmp_path)]) == 2
-    (tmp_path / "binary.json").write_bytes(b"\xff\xfe\x00")
-    assert exit_code(["verify", str(tmp_path / "binary.json")]) == 2
-
-
 def test_the_same_of_python_data() -> None:
     data = data_of(PROBLEM)
     with pytest.raises(InputError, match=r"certificate\.tangent must be a finite number, got inf"):
