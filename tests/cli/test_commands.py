@@ -256,12 +256,6 @@ def command(*arguments: str) -> Any:
     )
 
 
-def test_as_a_command_it_prints_json_and_nothing_else() -> None:
-    done = command(*SOLVE, "--json")
-    assert (done.returncode, done.stderr) == (0, "")
-    assert list(json.loads(done.stdout)) == KEYS
-
-
 def test_as_a_command_it_ends_with_3_and_no_traceback() -> None:
     done = command("solve", "--peak-velocity", "1.53", "--order", "4", "--degree", "1", "--json")
     assert (done.returncode, done.stdout) == (3, "")

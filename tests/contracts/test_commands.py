@@ -152,22 +152,17 @@ def test_every_option_has_a_sentence_in_the_help(command: str) -> None:
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_the_help_fills_its_lines_and_shows_no_default_of_a_switch(command: str, capsys: Capture) -> None:
+def test_the_help_says_what_a_command_does_and_shows_no_default_of_a_switch(command: str, capsys: Capture) -> None:
     arguments = app.app[command].assemble_argument_collection(parse_docstring=True)
     assert [argument.name for argument in arguments if "\n" in (argument.parameter.help or "")] == []
-    assert exit_code([command, "--help"]) == 0
-    out = capsys.readouterr().out
-    assert "False" not in out
-
-
-@pytest.mark.parametrize("command", COMMANDS)
-def test_the_list_of_commands_says_what_each_does(command: str, capsys: Capture) -> None:
     does = inspect.getdoc(app.app[command].default_command)
     assert does is not None
     summary = does.partition("\n\nParameters")[0]
-    for arguments in (["--help"], [command, "--help"]):
-        assert exit_code(arguments) == 0
-        assert summary.partition(".")[0][:40] in " ".join(capsys.readouterr().out.replace("│", "").split())
+    for asked in (["--help"], [command, "--help"]):
+        assert exit_code(asked) == 0
+        out = capsys.readouterr().out
+        assert "False" not in out
+        assert summary.partition(".")[0][:40] in " ".join(out.replace("│", "").split())
 
 
 def test_help_imports_nothing_heavy() -> None:
