@@ -130,7 +130,8 @@ class LawSearch:
         A structure that is stored led to the best of several starts when it was stored.
         """
         first = self._try_drive() if self.warm is None else None
-        if first is not None and self._near_limit(first):
+        limit = None if first is None else limit_beside(self.problem)
+        if first is not None and limit is not None and first.objective <= limit.value * (1.0 + _NEAR_LIMIT):
             return
         guess = stored_guess(self.model) if stored and self.method != IPOPT else None
         last = self._try(self.warm or guess, None)
@@ -153,11 +154,6 @@ class LawSearch:
 
         limit = limit_beside(self.problem)
         return None if limit is None else self._try(None, starts.in_phase_plane(self.model, limit))
-
-    def _near_limit(self, law: Candidate) -> bool:
-        """Whether the limit of a drive leaves a law little slack."""
-        limit = limit_beside(self.problem)
-        return limit is not None and law.objective <= limit.value * (1.0 + _NEAR_LIMIT)
 
     def _try(self, warm: ActiveSet | None, point: Array | None) -> Candidate | None:
         known = self.candidates[0].objective if self.candidates else inf

@@ -219,7 +219,7 @@ def _last_place(path: Path, segment: StructureSegment, t: Array, place: int, end
 def _fill(laws: SolvedBatch, path: Path, segment: StructureSegment, t: Array, places: Places) -> None:
     """Enter the laws of a segment at places between those at which some are known, in waves."""
     structure = segment.structure
-    if len(places) and structure.affine and path.one_cost and segment.begin < segment.end:
+    if len(places) and structure.affine and not path.slope.cost.any() and segment.begin < segment.end:
         _affine(laws, path, segment, places, t[places])
         return
     for stride in _WAVES:

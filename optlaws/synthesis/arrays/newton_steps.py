@@ -89,16 +89,11 @@ class Structure:
         return errors
 
     @kept_property
-    def of_families(self) -> list[slice]:
-        """Index ranges of the contacts of each family; some may be empty."""
-        ends = np.searchsorted(self.family, np.arange(len(self.model.program.families) + 1)).tolist()
-        return [slice(low, high) for low, high in pairwise(ends)]
-
-    @kept_property
     def _own(self) -> list[tuple[BatchFamily, slice]]:
         """The families that have contacts, each with which these are."""
-        families = zip(batch_families(self.model), self.of_families, strict=True)
-        return [(family, contacts) for family, contacts in families if contacts.start < contacts.stop]
+        ends = np.searchsorted(self.family, np.arange(len(self.model.program.families) + 1)).tolist()
+        families = zip(batch_families(self.model), pairwise(ends), strict=True)
+        return [(family, slice(low, high)) for family, (low, high) in families if low < high]
 
     def jets(self, x: Array, u: Array) -> tuple[Array, Array, Array]:
         """Planes of s f and of their derivatives by the place, (laws, contacts, variables + 1), and second derivatives.

@@ -51,11 +51,6 @@ class Path:
     #: what is known of laws below a claim, computed once
     bounds_below_claim: dict[int | None, Any] = field(default_factory=dict, repr=False)
 
-    @property
-    def one_cost(self) -> bool:
-        """Whether the same is minimised all along."""
-        return not self.slope.cost.any()
-
     def numbers(self, t: Array) -> Numbers:
         """The numbers at many t."""
         ways = ("right", "bounds", "cost")

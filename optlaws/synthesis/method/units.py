@@ -81,7 +81,9 @@ def units_of(program: Program) -> ProgramUnits | None:
         if isinstance(family, ProductFamily):
             powers |= family.slack != 0.0
     variables = np.where(powers, size * size, size) * constants
-    units = [size * _unit_of_constant(family, constants) for family in program.families]
+    # linear families are in units of the constants that they are bounded by
+    bounding = [isinstance(family, LinearFamily) & (family.slack > 0.0) for family in program.families]
+    units = [size * float(constants[chosen].max(initial=1.0)) for chosen in bounding]
     cost = program.objective * variables
     objective = float(np.abs(cost).max()) or 1.0
     scaled = Program(
@@ -106,11 +108,6 @@ def _units_of_constants(program: Program) -> Array:
         if isinstance(family, LinearFamily):
             units[light] = [power_of_two(1.0 / weight) for weight in weights[light].tolist()]
     return units
-
-
-def _unit_of_constant(family: ConstraintFamily, constants: Array) -> float:
-    """The unit of the constant that a linear family is bounded by."""
-    return float(constants[family.slack > 0.0].max(initial=1.0)) if isinstance(family, LinearFamily) else 1.0
 
 
 def _row_unit(family: ConstraintFamily, size: float) -> float:

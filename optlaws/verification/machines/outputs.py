@@ -69,7 +69,8 @@ class ExactOutput:
     def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
         """A ball that contains the greatest magnitude, or the one-sided peak, under a stored law."""
         signs = self.constant.signs if isinstance(self.constant, OutputPeak) else (1.0, -1.0)
-        return greatest_value(self.response(of_pieces(pieces), [0]), self.start, self.stop, signs)
+        several = _cells(self.response(of_pieces(pieces), [0]), self.start, self.stop)
+        return greatest_magnitude([(arb_poly(centre), off) for _, [(centre, off)] in several], signs)
 
     def rms(self, pieces: Sequence[PolynomialPiece]) -> arb:
         """A ball that holds the root mean square under a stored law."""
@@ -141,11 +142,6 @@ def _cells(motion: OutputMotion, start: Fraction, stop: Fraction) -> Iterator[tu
         terms = max(_TERMS, stretch.degree + 1)
         if ends[0] < ends[1]:
             yield from cells(functions, arb_series, ends, Fraction(0), negligible, terms=terms, most=inf)
-
-
-def greatest_value(motion: OutputMotion, start: Fraction, stop: Fraction, signs: Sequence[float] = (1.0, -1.0)) -> arb:
-    """A ball that contains the greatest magnitude of a single law's output between two times, or its one-sided peak."""
-    return greatest_magnitude([(arb_poly(centre), off) for _, [(centre, off)] in _cells(motion, start, stop)], signs)
 
 
 def products(motion: OutputMotion, start: Fraction, stop: Fraction) -> list[arb]:
