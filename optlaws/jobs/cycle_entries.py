@@ -205,6 +205,14 @@ def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, A
 
     spec, cycles = CycleProblemFile.read(data, file), dict[str, Cycle]()
     with located(str(file)):
+        if spec.given_period is None and not any(axis.follower for axis in spec.axis):
+            tables = dict[str, Any]()
+            for axis in spec.axis:
+                with located(f"axis {axis.name}"):
+                    tables[axis.name] = _table_of(axis)
+            given = Axes(tables, interlocks=spec.interlocks)
+            begun = tuple(replace(axis, segment=tuple(given[axis.name].segments)) for axis in spec.axis)
+            return replace(spec, axis=begun, speed=None, period=Exact(given.duration, "s")), given
         if spec.period_sought:
             from optlaws.cycles.axes.first_diagram import first_diagram
 
@@ -224,11 +232,16 @@ def read_given(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, A
         return spec, Axes(cycles, interlocks=spec.interlocks)
 
 
+def _table_of(axis: AxisEntries) -> dict[str, Any]:
+    """What a cycle takes of an axis, without its clock."""
+    shared = (name for name in entries_of(Cycle) if name in entries_of(AxisEntries))
+    entries = {name: getattr(axis, name) for name in shared}
+    return {**entries, "drive": drive_of(axis.mechanism, axis.drive), "segments": axis.segment}
+
+
 def cycle_of(axis: AxisEntries, speed: NumberOrQuantity | None, period: NumberOrQuantity | None) -> Cycle:
     """The cycle of an axis, or of its cam where there is a follower."""
-    shared = (name for name in entries_of(Cycle) if name in entries_of(AxisEntries))
-    entries = {name: getattr(axis, name) for name in shared} | {"drive": drive_of(axis.mechanism, axis.drive)}
-    cycle = Cycle(axis.segment, speed=speed, period=period, **entries)
+    cycle = Cycle(**_table_of(axis), speed=speed, period=period)
     return cycle if axis.follower is None else cycle.cam(axis.follower.period, axis.follower.damping)
 
 

@@ -17,6 +17,7 @@ from tests.internals.jobs import (
     CamProblemFile,
     MachineLawsProblemFile,
     numbers_of,
+    read_given,
     read_of_cycle_entries,
 )
 from tests.internals.mechanisms import SliderCrank
@@ -189,6 +190,13 @@ def test_what_binds_the_overlap_of_two_axes_is_their_interlocks(capsys: Capture)
     texts = (limited, waiting, untimed, short)
     first, *others = (read_of_cycle_entries(tomllib.loads(text), Path("c.toml"))[1].duration for text in texts)
     assert others == pytest.approx([first] * len(others), rel=1e-8)
+    # a period that nobody gave is none to compare with
+    compared = [
+        "speed, as a multiple of that before the overlap" in [row.name for row in overlap.summary()]
+        for spec, given in (read_given(tomllib.loads(text), Path("c.toml")) for text in (limited, untimed))
+        if (overlap := spec.overlap_of(given, Path("c.toml")))
+    ]
+    assert compared == [True, False]
     unlimited = re.sub("(?m)^limits = .*\n", "", untimed)
     with pytest.raises(
         InputError, match=r"axis slide: segment 2 \(Rise\): nothing bounds its time: give it a duration"
