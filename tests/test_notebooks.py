@@ -24,7 +24,7 @@ from optlaws import (
     synthesize,
     synthesize_array,
 )
-from tests.internals.shown import cell, drawing, facts, page, table
+from tests.internals.shown import facts, page
 
 VOID = {"path", "line"}
 
@@ -119,9 +119,5 @@ def test_fronts_and_arrays() -> None:
     assert "infeasible" in checked(laws)[1]
 
 
-def test_text_is_escaped_and_numbers_are_short() -> None:
-    assert cell(1 / 3) == "0.3333333"
-    assert "<i>" not in page(
-        "<i>", facts({"<i>": "<i>"}), table(["<i>"], [["<i>"]]), drawing('"<i>"', [0.0, 1.0], [0.0, 1.0])
-    )
-    assert drawing("none", [0.0, 1.0], [float("nan")] * 2).count("M") == 0
+def test_titles_and_facts_are_escaped() -> None:
+    assert "<i>" not in page("<i>", facts({"<i>": "<i>"}))

@@ -29,6 +29,7 @@ from optlaws import (
     synthesize_array,
 )
 from optlaws.results import Page
+from tests.cli.test_show import Terminal
 from tests.internals.explorer import fact_sentences, panel_data
 from tests.internals.plots import draw_panels, empty_figure
 from tests.internals.shown import Row, Section, Summary, report_page, showing, steps
@@ -60,6 +61,7 @@ def test_a_curve_is_broken_where_it_is_not_finite() -> None:
     assert curve(showing.drawing("j", [0.0, 0.5, 0.5, 0.5, 1.0], [1.0, 1.0, nan, 2.0, 2.0])) == (
         "M4.0,30.0 L75.0,30.0 M75.0,4.0 L146.0,4.0"
     )
+    assert "M" not in showing.drawing("none", [0.0, 1.0], [nan, nan])
 
 
 def test_names_and_texts_are_escaped() -> None:
@@ -145,11 +147,6 @@ def test_a_terminal_watches_unless_it_is_told_otherwise(monkeypatch: pytest.Monk
 
 
 # --- steps ---
-
-
-class Terminal(StringIO):
-    def isatty(self) -> bool:
-        return True
 
 
 def watched_by(monkeypatch: pytest.MonkeyPatch) -> Terminal:

@@ -3,12 +3,12 @@
 import re
 import shlex
 import tomllib
-from io import StringIO
 from pathlib import Path
 
 import pytest
 
 from optlaws import Drive, InputError, Motor, TranslatingRoller
+from tests.cli.test_show import Terminal
 from tests.internals.cli import exit_code
 from tests.internals.entries import entries_of
 from tests.internals.jobs import (
@@ -38,13 +38,6 @@ OWN = {
     "law": "--velocity '0.62 m/s' --jerk '2431 m/s^3' --order 4",
     "study": "--minimise rms_c --steps 2 --from 1.6",
 }
-
-
-class Terminal(StringIO):
-    """Someone who types."""
-
-    def isatty(self) -> bool:
-        return True
 
 
 @pytest.fixture(autouse=True)
