@@ -708,3 +708,31 @@ def test_a_standard_law_over_the_seam_is_itself_on_both_sides() -> None:
         part.peaks[1].holds(law_of_move(part).constants.C.value * abs(part.stroke) / (part.stop - part.start) ** 2)
         for part in table.moves
     )
+
+
+@pytest.mark.parametrize(("row", "other"), [(0, -2), (-1, 300), (0, 300)])
+def test_a_point_far_off_at_the_seam_is_left_out(row: int, other: int) -> None:
+    """It was taken for an advance of the turn, and a move of one row."""
+    x, law = np.linspace(0.0, 360.0, 721), catalogue["cycloidal"].law
+    y = 25.0 * (law(np.clip((x - 40.0) / 90.0, 0.0, 1.0)) - law(np.clip((x - 170.0) / 110.0, 0.0, 1.0)))
+    y += np.random.default_rng(2).normal(0.0, 2e-3, 721)
+    y[row] += 0.08
+    y[other] -= 0.06
+    table = split_table(x, y.round(4), digit=1e-4)
+    assert [part.law for part in table.stretches] == [None, "cycloidal", None, "cycloidal", None]
+    assert set(table.outliers) == {row % 721, other % 721}
+    assert table.seam == 0.0
+
+
+def test_lifts_between_steep_corners_have_these_where_few_pieces_do_not_show_them() -> None:
+    """Five pieces fit the lift worse than four, and the corners were looked for with no more."""
+    x, powers = np.arange(720) * 0.5, [2, 6, 10, 16]
+    rates = np.array([[np.prod([p - i for i in range(nu)]) for p in powers] for nu in range(4)], dtype=np.float64)
+    shares = np.linalg.solve(rates, [0.3 - 9.0, -3.0 * 0.015 * 60.0, 0.0, 0.0])
+    away = np.abs(x - 155.0)
+    lift = 9.0 + sum(share * (away / 60.0) ** p for share, p in zip(shares, powers, strict=True))
+    y = np.asarray(np.select([away >= 80.0, away >= 60.0], [0.0, 0.015 * (80.0 - away)], lift), dtype=np.float64)
+    for seed in (3, 4):
+        noise = np.random.default_rng(seed).normal(0.0, 2e-3, 720)
+        table = split_table(x, np.asarray(np.round(y + noise, 4), dtype=np.float64), digit=1e-4)
+        assert table.corners == pytest.approx((75.0, 95.0, 215.0, 235.0), abs=0.2)

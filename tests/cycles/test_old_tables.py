@@ -142,3 +142,14 @@ def test_a_cycle_that_is_harder_than_the_old_one_says_so() -> None:
     facts = "\n".join(map(str, OldTableReport(table, table.bettered(0.05)).facts))
     assert "the greatest jerk of the new cycle is" in facts
     assert "that of the old one above" in facts
+
+
+@pytest.mark.parametrize("top", [180.0, 120.0])
+def test_corners_of_a_triangle_are_taken_away_within_the_tolerance(top: float) -> None:
+    """At equal slopes the velocity is 0 where the turn begins, so that a blend had a part without length."""
+    x = np.arange(361.0)
+    old = split_table(x, np.interp(x, [0.0, top, 360.0], [0.0, 10.0, 0.0]).round(3), digit=1e-3)
+    new = old.bettered(0.05)
+    assert new.corners == ()
+    assert new.gain_of_cycle(old).deviation == pytest.approx(0.05, rel=1e-9)
+    assert all(new.blend_in_words(part) for part in new.moves if part.corner is not None)

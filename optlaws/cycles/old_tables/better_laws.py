@@ -247,7 +247,8 @@ def _blend(
     turn, advance = stretches[-1].stop - stretches[0].start, stretches[-1].high - stretches[0].low
     roots = np.atleast_1d(velocity.roots())
     turns = roots.real[(np.abs(roots.imag) < _SAME) & (roots.real > _SAME) & (roots.real < 1.0 - _SAME)].tolist()
-    nodes = [0.0, *([0.5] if corner in (stretches[0].start, stretches[-1].stop) else []), *turns, 1.0]
+    inner = [0.5] if corner in (stretches[0].start, stretches[-1].stop) else []
+    nodes = [0.0, *inner, *(at for at in turns if all(abs(at - other) > _SAME for other in inner)), 1.0]
     parts = []
     for first, last in pairwise(sorted(nodes)):
         before = corner + wide * (last - 0.5) <= stretches[0].start

@@ -210,13 +210,16 @@ class _Search:
                 at = min({at, starts.get(pieces, at)}, key=partial(self._squares, joints, pieces))
                 at = self.fitter.ends_of(*at, joints, pieces, near)
             elif fits:
-                at = self.best(fits).start, self.best(fits).stop
+                best = self.best(fits).start, self.best(fits).stop
+                at = min({best, starts.get(pieces, best)}, key=partial(self._squares, joints, pieces))
             fit = self.fitter.solved(*at, joints, pieces, whole=True)[2]
             if fit is None:
                 continue
             fits.append(fit)
             least = min(fit.criterion(2.0) for fit in fits)
             resolved = any(fit.variance <= UNRESOLVED for fit in fits)
+            # an even number of pieces may fit a crest far better than the odd one behind it
+            resolved = resolved and (pieces > _ENDS_BY or any(likely(fit.squares, self.rows) for fit in fits))
             if resolved and len(fits) > 3 and all(fit.criterion(2.0) > least + 2.0 for fit in fits[-2:]):
                 break
         return fits

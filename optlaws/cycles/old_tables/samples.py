@@ -133,6 +133,7 @@ def samples_of(places: Array, heights: Array, digit: float = 0.0) -> Samples:
     least = np.full(len(x), max(unit / np.sqrt(12.0), LEAST_NOISE * float(np.ptp(heights))))
     if x is places and np.ptp(np.diff(x)) > 1e-6 * np.median(np.diff(x)):
         least = np.hypot(least, _scattered_by_places(x, heights))
+    heights = _closed_without_speck(x, heights, max(noise_of(x, heights, computed=not unit), float(least.min())))
     rests = _rests_exactly(heights)
     size = noise_of(x, heights, rests, computed=not unit)
     suspects = _far_points(x, heights, max(size, float(least.min())))
@@ -372,6 +373,24 @@ def _rests_exactly(heights: Array) -> Mask:
         for first in np.flatnonzero(np.ptp(sliding_window_view(heights, width), axis=1) == 0.0):
             rests[first : first + width] = True
     return rests
+
+
+def _closed_without_speck(places: Array, heights: Array, noise: float) -> Array:
+    """Heights of a turn whose first or last row is as the other one if it is far off where both sides go on."""
+    apart, turn = abs(heights[-1] - heights[0]), places[-1] - places[0]
+    for degree in _DEGREES_BESIDE if apart > _SUSPECT * noise and len(places) > _ROWS_TO_STAND_OUT * _FAR_ORDER else ():
+        wide = 2 * degree + 1
+        before = _beyond(places[-1 - wide : -1] - turn, heights[-1 - wide : -1], places[0], degree)
+        behind = _beyond(places[1 : 1 + wide], heights[1 : 1 + wide], places[0], degree)
+        if max(before[1], behind[1]) <= (_FITTING * noise) ** 2:
+            near = _STEP * noise * np.sqrt(1.0 + max(before[2], behind[2]))
+            off = [max(abs(heights[row] - end) for end in (before[0], behind[0])) for row in (0, -1)]
+            if min(off) <= near < apart:
+                closed = heights.copy()
+                closed[[0, -1]] = heights[0 if off[0] < off[1] else -1]
+                return closed
+            break
+    return heights
 
 
 def _tell_noise(rests: Mask) -> bool:

@@ -279,9 +279,10 @@ def split_table(
     if tolerance is None:
         room = max(room, NOISE_ROOM * scatter)
     table = OldTable(
-        tuple(stretches_of(motion)), room, scatter, seam_of(heights, room), unit, master, samples.places[given],
-        heights, whole=whole,
+        tuple(stretches_of(motion)), room, scatter, seam_of(samples.heights[given], room), unit, master,
+        samples.places[given], heights, whole=whole,
     )  # fmt: skip
-    far = motion.samples.suspects[given] & (np.abs(table.at(table.places) - heights) > room)
+    left_out = motion.samples.suspects[given] | (samples.heights[given] != heights)
+    far = left_out & (np.abs(table.at(table.places) - heights) > room)
     table = replace(table, outliers=tuple(np.flatnonzero(far).tolist()))
     return _repeated(table, lobes)

@@ -218,7 +218,7 @@ class OldTable:
     def gain_of_cycle(self, old: OldTable) -> MoveGain:
         """The gain of the whole cycle over that of an older table, whose corners have no greatest acceleration.
 
-        Its deviation is the greatest one of `gains`, beside corners that are taken away.
+        Its deviation is the greatest one of `gains`, or at a corner that is taken away.
 
         Examples
         --------
@@ -233,7 +233,9 @@ class OldTable:
             was = was[0], inf, inf
         if self.corners:
             new = new[0], inf, inf
-        deviation = max((each.deviation for each in self.gains(old)), default=0.0)
+        corners = [part.corner for part in self.moves if part.corner is not None]
+        at_corners = np.abs(self.at(corners) - old.at(corners)).max(initial=0.0)
+        deviation = max([float(at_corners), *(each.deviation for each in self.gains(old))])
         first, last = old.stretches[0], old.stretches[-1]
         return MoveGain("whole cycle", first.start, last.stop, was, new, deviation, old.peaks)
 
