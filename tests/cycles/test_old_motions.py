@@ -726,13 +726,13 @@ def test_a_point_far_off_at_the_seam_is_left_out(row: int, other: int) -> None:
 
 def test_lifts_between_steep_corners_have_these_where_few_pieces_do_not_show_them() -> None:
     """Five pieces fit the lift worse than four, and the corners were looked for with no more."""
-    x, powers = np.arange(720) * 0.5, [2, 6, 10, 16]
+    x, powers = np.linspace(0.0, 359.5, 720), [2, 6, 10, 16]
     rates = np.array([[np.prod([p - i for i in range(nu)]) for p in powers] for nu in range(4)], dtype=np.float64)
     shares = np.linalg.solve(rates, [0.3 - 9.0, -3.0 * 0.015 * 60.0, 0.0, 0.0])
     away = np.abs(x - 155.0)
     lift = 9.0 + sum(share * (away / 60.0) ** p for share, p in zip(shares, powers, strict=True))
-    y = np.asarray(np.select([away >= 80.0, away >= 60.0], [0.0, 0.015 * (80.0 - away)], lift), dtype=np.float64)
+    y = np.select([away >= 80.0, away >= 60.0], [0.0, 0.015 * (80.0 - away)], lift)
     for seed in (3, 4):
         noise = np.random.default_rng(seed).normal(0.0, 2e-3, 720)
-        table = split_table(x, np.asarray(np.round(y + noise, 4), dtype=np.float64), digit=1e-4)
+        table = split_table(x, np.round(y + noise, 4), digit=1e-4)
         assert table.corners == pytest.approx((75.0, 95.0, 215.0, 235.0), abs=0.2)
