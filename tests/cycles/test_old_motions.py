@@ -736,3 +736,22 @@ def test_lifts_between_steep_corners_have_these_where_few_pieces_do_not_show_the
         noise = np.random.default_rng(seed).normal(0.0, 2e-3, 720)
         table = split_table(x, np.round(y + noise, 4), digit=1e-4)
         assert table.corners == pytest.approx((75.0, 95.0, 215.0, 235.0), abs=0.2)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 5])
+def test_short_parabolas_between_rests_and_ramps_begin_and_end_where_they_do(seed: int) -> None:
+    """Splines that begin slowly were as likely, 3 to 9 deg too early, with up to 8 times the acceleration."""
+    x, speed = np.arange(360.0), 0.4 / 27.0
+    away = 95.0 - np.abs(x - 195.0)
+    lift = BPoly.from_derivatives([29.0, 95.0], [[0.4, speed, 0.0], [11.0, 0.0, -0.01]])
+    ramp = np.where(away < 4.0, speed * np.maximum(away, 0.0) ** 2 / 8.0, speed * (away - 2.0))
+    y = np.where(away < 29.0, ramp, lift(np.maximum(away, 29.0))) + np.random.default_rng(seed).normal(0.0, 1e-3, 360)
+    table = split_table(x, np.round(y, 4), digit=1e-4)
+    assert table.corners == ()
+    ends = [part.stop for part in table.stretches]
+    assert ends[:2] == pytest.approx([100.0, 104.0], abs=0.5)
+    assert ends[-3:-1] == pytest.approx([286.0, 290.0], abs=0.5)
+    blend = table.stretches[1]
+    peak = law_of_move(blend).constants.C.value * abs(blend.stroke) / (blend.stop - blend.start) ** 2
+    assert peak == pytest.approx(speed / 4.0, rel=0.25)
+    assert blend.peaks[1].holds(speed / 4.0)

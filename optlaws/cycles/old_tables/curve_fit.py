@@ -7,7 +7,7 @@ from math import log
 from typing import NamedTuple
 
 import numpy as np
-from scipy.interpolate import BSpline, make_interp_spline
+from scipy.interpolate import BPoly, BSpline, make_interp_spline
 
 from optlaws.numbers import Array
 
@@ -167,6 +167,15 @@ class CurveFit:
         """Standard deviations of a derivative at places, for noise of the variance about it."""
         rows = basis(self.spline.t, places, self.degree, nu) @ self.factor
         return np.asarray(np.sqrt(max(self.variance, 1.0) * (rows**2).sum(axis=1)))
+
+
+def parabola(ends: tuple[End, End], start: float, stop: float, squares: float, rows: int) -> CurveFit:
+    """The motion of constant acceleration from one line to another, in which its length alone is free."""
+    known = [[float(end.value(np.array(at))), end.slope] for end, at in zip(ends, (start, stop), strict=True)]
+    acceleration = (ends[1].slope - ends[0].slope) / (stop - start)
+    law = BPoly.from_derivatives([start, stop], [[*each, acceleration] for each in known])
+    spline = BSpline(np.repeat([start, stop], DEGREE + 1), law.c[:, 0], DEGREE)
+    return CurveFit(spline, np.zeros((DEGREE + 1, 1)), (), squares, 1, rows, ends)
 
 
 def basis(knots: Array, places: Array, degree: int = DEGREE, nu: int = 0) -> Array:

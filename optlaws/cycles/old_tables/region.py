@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeGuard
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from optlaws.cycles.old_tables.curve_fit import DEGREE, CurveFit, End, interpolation
+from optlaws.cycles.old_tables.curve_fit import DEGREE, CurveFit, End, interpolation, parabola
 from optlaws.cycles.old_tables.fitting import AS_LIKELY, EVIDENT, SIMPLE, UNRESOLVED, fits_of, likely, with_jumps
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
 from optlaws.cycles.old_tables.rests_and_lines import FEWEST, NOISE_ROOM, Line, joined_over_seam, lines_of
@@ -45,10 +45,14 @@ _FEWEST_BESIDE = 4
 _ALONE = 0.5
 #: steps over which the velocity may change where lines meet
 _BLENDS = np.arange(2.0, 65.0, 2.0)
+#: standard laws that are fitted together
+_MOST_MOVES = 4
 #: standard laws whose sums of squares differ by less are told apart by no table
 _ALIKE = 16.0
 #: steps of a chord are so much less than the rows of a region; of the greatest slope: it stops where chords have less
 _CHORDS, _STOPPED = 60, 0.05
+#: how many lengths of a blend are compared
+_LENGTHS = 400
 #: of a turn: the moves of one without rest begin so far off it
 _BEYOND_TURN = 0.1
 
@@ -166,28 +170,50 @@ class Region:
         return squares
 
     @cached_property
-    def _corner(self) -> tuple[float, float, float] | None:
-        """Place and position of the corner at which the lines beside it meet, with the sum of squares; None if none."""
-        if self.rows > _FEWEST_MOVING or self.before is None or self.after is None:
-            return None
-        apart = self.before.slope - self.after.slope
-        if apart == 0.0:
+    def _meeting(self) -> tuple[float, Array] | None:
+        """Where the lines beside it meet, and how far its rows are off these, in deviations of noise."""
+        if self.before is None or self.after is None or self.before.slope == self.after.slope:
             return None
         before, after = self.ends
-        at = self.x[0] + float(after.value(self.x[0]) - before.value(self.x[0])) / apart
+        at = self.x[0] + float(after.value(self.x[0]) - before.value(self.x[0])) / (before.slope - after.slope)
         off = (np.where(self.x < at, before.value(self.x), after.value(self.x)) - self.y) / self.noise
-        squares = float(off @ off)
-        if not self.x[0] < at < self.x[-1] or not likely(squares, len(off)) or self._is_rounded(off, at):
-            return None
-        return float(at), float(before.value(np.array(at))), squares
+        return (float(at), off) if self.x[0] < at < self.x[-1] else None
 
-    def _is_rounded(self, off: Array, at: float) -> bool:
-        """Whether parabolas of some length, in which the velocity changes, are far likelier than a corner."""
-        away, change = np.abs(self.x - at), self.ends[1].slope - self.ends[0].slope
-        lengths = self.samples.step * _BLENDS
-        blends = change * np.maximum(0.5 * lengths - away[:, None], 0.0) ** 2 / (2.0 * lengths) / self.noise[:, None]
-        squares = ((off[:, None] + blends) ** 2).sum(axis=0)
-        return bool(squares.min() < off @ off - EVIDENT)
+    @cached_property
+    def _corner(self) -> tuple[float, float, float] | None:
+        """Place and position of the corner at which the lines beside it meet, with the sum of squares; None if none."""
+        if self.rows > _FEWEST_MOVING or self._meeting is None:
+            return None
+        at, off = self._meeting
+        squares = float(off @ off)
+        # parabolas of some length, in which the velocity changes, are far likelier than a corner that is none
+        if not likely(squares, len(off)) or self._of_blends(_BLENDS).min() < squares - EVIDENT:
+            return None
+        return at, float(self.ends[0].value(np.array(at))), squares
+
+    def _of_blends(self, steps: Array) -> Array:
+        """The sums of squares about parabolas over so many steps, in which the velocity changes where lines meet."""
+        at, off = self._meeting or (0.0, np.zeros(0))
+        change, lengths = self.ends[1].slope - self.ends[0].slope, self.samples.step * steps
+        inside = np.maximum(0.5 * lengths - np.abs(self.x - at)[:, None], 0.0)
+        blends = change * inside**2 / (2.0 * lengths) / self.noise[:, None]
+        return np.asarray(((off[:, None] + blends) ** 2).sum(axis=0))
+
+    def _blend(self) -> tuple[CurveFit, ...]:
+        """The parabola in which the velocity of one line changes to that of the other, the likeliest one; none if none.
+
+        Ends of splines that go on as slowly are anywhere within several steps, and these have far more acceleration.
+        """
+        if self._meeting is None or self.rows > _BLENDS[-1]:
+            return ()
+        at, _ = self._meeting
+        most = 2.0 * min(at - self.ends[0].low, self.ends[1].high - at) / self.samples.step
+        if most <= 1.0:
+            return ()
+        steps = np.linspace(1.0, most, _LENGTHS)
+        squares = self._of_blends(steps)
+        half = 0.5 * float(steps[int(np.argmin(squares))]) * self.samples.step
+        return (parabola(self.ends, at - half, at + half, float(squares.min()), len(self.x)),)
 
     @property
     def _has_few_rows(self) -> bool:
@@ -240,6 +266,9 @@ class Region:
                 if there and (room == SHORTEST or there[0].squares <= fits[0].squares + AS_LIKELY):
                     self.ends, fits = at_seam or self.ends, tuple(there)
                     break
+            blend = self._blend() if fits else ()
+            if blend and self._criterion(blend[0]) < self._criterion(fits[0]):
+                fits = (*blend, *fits)
             self._known_fits[key] = fits
         return self._known_fits[key]
 
@@ -264,12 +293,18 @@ class Region:
         chains = self._chains(turns)
         if not chains or not self._is_plain(chains[0]):
             stops = self._stops(turns)
-            for some in (some for count in range(1, len(stops) + 1) for some in combinations(stops, count)):
+            most = min(len(stops), _MOST_MOVES + 1 - len(turns)) if len(stops) <= _MOST_MOVES else 0
+            for some in (some for count in range(1, most + 1) for some in combinations(stops, count)):
                 staged = sorted([*turns, *some])
                 of_stages = self._chains(staged)
-                if of_stages and self._is_plain(of_stages[0]):
+                if of_stages and self._moves_in_stages(of_stages[0]) and self._is_plain(of_stages[0]):
                     return staged, of_stages
         return turns, chains
+
+    def _moves_in_stages(self, chain: Chain) -> bool:
+        """Whether each law of a chain moves by more than noise."""
+        rises = np.abs(np.diff(chain.heights))[[bool(name) for name in chain.names]]
+        return bool(rises.min() > NOISE_ROOM * float(self.noise.max()) + self.digit)
 
     def _stops(self, turns: Sequence[float]) -> list[float]:
         """About where the motion stops, and goes on the same way, not near where it turns."""
@@ -442,7 +477,7 @@ class Region:
         return self._known_chains[key]
 
     def _nearest_chains(self, places: Sequence[float]) -> list[Chain]:
-        if len(places) - 1 > 4 or len(self.x) < 2 * len(places) + 2 or not np.all(np.diff(places) > 0.0):
+        if len(places) - 1 > _MOST_MOVES or len(self.x) < 2 * len(places) + 2 or not np.all(np.diff(places) > 0.0):
             return []
         heights, known = np.interp(places, self.x, self.y), np.zeros(len(places), dtype=bool)
         for side, end in ((0, self.ends[0]), (-1, self.ends[1])):
