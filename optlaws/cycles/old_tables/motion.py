@@ -200,8 +200,7 @@ def _begun(samples: Samples, crests: Sequence[float], advance: float) -> tuple[S
     long = whole and min(rests[0].last, last - rests[-1].first) >= 2 * FEWEST
     if long or not goes_on(samples.places, samples.heights, samples.noise):
         return samples, rests
-    # where a motion advances, what looks like a rest may be where it turns
-    lines = [*rests, *(line for line in (lines_of(samples, 0, last) if advance else []) if not line.is_short)]
+    lines = rests or [line for line in (lines_of(samples, 0, last) if advance else []) if not line.is_short]
     if not lines:
         row = 0 if advance else int(np.argmin(samples.heights)) % last
         turn = samples.begun_at(row, advance) if row else samples

@@ -291,7 +291,7 @@ class Region:
         """Where it begins, turns and ends, or stops too, with standard laws between: of stages if these explain it."""
         turns = self._turns()
         chains = self._chains(turns)
-        if not chains or not self._is_plain(chains[0]):
+        if self.split and not (chains and self._is_plain(chains[0])):
             stops = self._stops(turns)
             most = min(len(stops), _MOST_MOVES + 1 - len(turns)) if len(stops) <= _MOST_MOVES else 0
             for some in (some for count in range(1, most + 1) for some in combinations(stops, count)):
@@ -353,7 +353,7 @@ class Region:
             if not self.moves_at_all:
                 return Parts([], self._resting(), 0, [])
             return None if self._corner is None else self._few_rows()
-        _, chains = self._staged()
+        chains = self._chains(self._turns())
         return Parts([], chains[0].squares, chains[0].free, []) if chains and self._is_plain(chains[0]) else None
 
     def _regions(self, lines: Sequence[Line]) -> list[Region]:
