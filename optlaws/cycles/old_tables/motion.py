@@ -8,7 +8,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from optlaws.cycles.old_tables.region import FittedMove, Parts, Region, regions
+from optlaws.cycles.old_tables.fitted_moves import FittedMove, Parts
+from optlaws.cycles.old_tables.region import Region, regions
 from optlaws.cycles.old_tables.rests_and_lines import (
     FEWEST,
     NOISE_ROOM,

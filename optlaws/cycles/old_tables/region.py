@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, pairwise
-from typing import NamedTuple, TypeGuard
+from typing import TypeGuard
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from optlaws.cycles.old_tables.curve_fit import DEGREE, CurveFit, End, interpolation, parabola
+from optlaws.cycles.old_tables.fitted_moves import FittedMove, Parts, is_at_corner, is_between_longer
 from optlaws.cycles.old_tables.fitting import AS_LIKELY, EVIDENT, SIMPLE, UNRESOLVED, fits_of, likely, with_jumps
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
 from optlaws.cycles.old_tables.rests_and_lines import FEWEST, NOISE_ROOM, Line, joined_over_seam, lines_of
@@ -55,76 +55,6 @@ _CHORDS, _STOPPED = 60, 0.05
 _LENGTHS = 400
 #: of a turn: the moves of one without rest begin so far off it
 _BEYOND_TURN = 0.1
-
-
-@dataclass(frozen=True, eq=False)
-class FittedMove:
-    """A stretch of a motion between two turning points or ends.
-
-    Attributes
-    ----------
-    start, stop, low, high
-        Where it begins and ends, and the positions there.
-    fits
-        Splines that the rows do not exclude, the best one first; none where a standard law alone is fitted.
-    name, nearest
-        The standard law that the rows do not exclude, "" where they exclude all; the one that is nearest.
-    peaks
-        The intervals of velocity, acceleration and jerk.
-    slopes
-        The velocities of the lines beside it. Where these meet is a corner, a move without length.
-    corners
-        Whether the velocity jumps at its ends.
-    """
-
-    start: float
-    stop: float
-    low: float
-    high: float
-    fits: tuple[CurveFit, ...]
-    name: str
-    nearest: str
-    peaks: tuple[PeakInterval, ...] = ()
-    slopes: tuple[float, float] = (0.0, 0.0)
-    corners: tuple[bool, bool] = (False, False)
-
-    @property
-    def is_corner(self) -> bool:
-        """Whether it is the place alone at which two lines meet."""
-        return self.start == self.stop
-
-    def position_before(self, place: float) -> float:
-        """The position at a place before it, on the line from which it starts."""
-        return self.low + self.slopes[0] * (place - self.start)
-
-    def position_behind(self, place: float) -> float:
-        """The position at a place behind it, on the line in which it ends."""
-        return self.high + self.slopes[1] * (place - self.stop)
-
-    def moved(self, along: float, up: float) -> FittedMove:
-        """The move, moved along the master and up."""
-        fits = tuple(fit.moved(along, up) for fit in self.fits)
-        start, stop = self.start + along, self.stop + along
-        return replace(self, fits=fits, start=start, stop=stop, low=self.low + up, high=self.high + up)
-
-
-class Parts(NamedTuple):
-    """Moves, the sum of squares of their rows, the number of parameters, and places far off that are left out."""
-
-    moves: list[FittedMove]
-    squares: float
-    free: int
-    far: list[float]
-
-    def criterion(self, rows: int) -> float:
-        """Schwarz's criterion for these rows."""
-        return criterion(self.squares, self.free, rows)
-
-    @classmethod
-    def joined(cls, parts: Sequence[Parts], free: int = 0) -> Parts:
-        """Parts after each other, with further parameters."""
-        moves, far = [move for part in parts for move in part.moves], [place for part in parts for place in part.far]
-        return cls(moves, sum(part.squares for part in parts), free + sum(part.free for part in parts), far)
 
 
 class Region:
@@ -373,11 +303,11 @@ class Region:
         beside = zip(lines, pairwise(region.parts for region in self._regions(lines)), strict=True)
         apart = [(line, before, after) for line, (before, after) in beside]
         # rows of a slow bend are on a short line as well, but not beside a corner
-        lines = [line for line, before, after in apart if not line.is_short or _is_at_corner(before, after)]
+        lines = [line for line, before, after in apart if not line.is_short or is_at_corner(before, after)]
         if not lines:
             return None
         parts = self._parts_between(lines)
-        doubtful = [line for line, before, after in apart if line.is_short or _is_between_longer(before, after)]
+        doubtful = [line for line, before, after in apart if line.is_short or is_between_longer(before, after)]
         for line in sorted(set(doubtful) & set(lines), key=lambda line: line.last - line.first):
             others = [each for each in lines if each is not line]
             fits = self._fits() if line.is_short and not others else ()
@@ -631,19 +561,6 @@ def regions(
         if key not in known:
             known[key] = Region(samples, *key[1:], seam, advance, split=split)
     return [known[key] for key in keys]
-
-
-def _is_at_corner(before: Parts, after: Parts) -> bool:
-    """Whether the velocity jumps where a line between two moves begins or ends."""
-    return any(move.corners[1] for move in before.moves[-1:]) or any(move.corners[0] for move in after.moves[:1])
-
-
-def _is_between_longer(before: Parts, after: Parts) -> bool:
-    """Whether less is between two moves than each is long, so that it may be the middle of one motion."""
-    if not before.moves or not after.moves:
-        return False
-    last, first = before.moves[-1], after.moves[0]
-    return first.start - last.stop < min(last.stop - last.start, first.stop - first.start)
 
 
 def _is_simple(fits: Sequence[CurveFit]) -> bool:

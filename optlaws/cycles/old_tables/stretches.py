@@ -9,9 +9,10 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
+from optlaws.cycles.old_tables.fitted_moves import FittedMove
 from optlaws.cycles.old_tables.motion import FittedMotion
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
-from optlaws.cycles.old_tables.region import SHORTEST, FittedMove
+from optlaws.cycles.old_tables.region import SHORTEST
 from optlaws.cycles.old_tables.standard import JUMP
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
