@@ -35,6 +35,8 @@ _ABOUT_SEAM = 0.01
 _MISSING = 1.5
 #: times the greatest peak of models: rows that have more speak against all of them
 _AT_ODDS = 1.02
+#: rows within a move that tell its acceleration by the standard law that is nearest, at least
+_FEWEST_OF_LAW = 6
 #: rows farther off a standard law, in standard deviations, are far off it, if they are few of all
 _FAR, _FEW = 6.0, 0.04
 #: standard deviations of most rows about a spline that is no model of these
@@ -456,7 +458,8 @@ class Region:
                 standard = (1.0 + _ROUNDED_LAW) * max(
                     each.peak(i, nu) * (1.0 + _UNCERTAIN * each.uncertainty(i, nu)) for each in chains
                 )
-                if any(each[i] for each in jumps[: nu - 1]) or (nu > 1 and any(corners)):
+                few = int(((self.x > low) & (self.x < high)).sum()) < _FEWEST_OF_LAW
+                if any(each[i] for each in jumps[: nu - 1]) or (nu > 1 and (few or any(corners))):
                     standard = np.inf
                 most.append(max(standard, most_peak(simple, nu, low, high) if simple else 0.0))
             at = self._seam_within(low, high)

@@ -107,7 +107,7 @@ class OldTable:
         if not self.whole and of_turn and abs(turn - of_turn) > _WHOLE_TURN * of_turn:
             raise InputError(
                 f"the rows go over {turn:.9g} {self.master}, and a turn of the master is {of_turn:.9g}: say by turn "
-                "how long it is, such as turn='720 deg', or by lobes how often the rows follow each other in it"
+                "how long it is, such as '720 deg', or by lobes how often the rows follow each other in it"
             )
         if speed is None and period is None:
             if times:
