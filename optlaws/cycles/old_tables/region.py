@@ -192,12 +192,11 @@ class Region:
         key = len(self.x), smooth
         if key not in self._known_fits:
             fits = tuple(fits_of(self.x, self.y, self.noise, self.ends, self.advance, smooth=smooth))
-            for room in (_ABOUT_SEAM, SHORTEST):
-                at_seam = self._ends_at_seam(fits, room * float(np.ptp(self.samples.places)))
-                there = fits_of(self.x, self.y, self.noise, at_seam, self.advance, smooth=smooth) if at_seam else []
-                if there and (room == SHORTEST or there[0].squares <= fits[0].squares + AS_LIKELY):
-                    self.ends, fits = at_seam or self.ends, tuple(there)
-                    break
+            if at_seam := self._ends_at_seam(fits, _ABOUT_SEAM):
+                there = tuple(fits_of(self.x, self.y, self.noise, at_seam, self.advance, smooth=smooth))
+                near = at_seam == self._ends_at_seam(fits, SHORTEST)
+                if there and (near or there[0].squares <= fits[0].squares + AS_LIKELY):
+                    self.ends, fits = at_seam, there
             blend = self._blend() if fits else ()
             if blend and self._criterion(blend[0]) < self._criterion(fits[0]):
                 fits = (*blend, *fits)
@@ -261,9 +260,9 @@ class Region:
         corner = FittedMove(place, place, height, height, (), "", "", slopes=slopes, corners=(True, True))
         return Parts([corner], squares, 0, [])
 
-    def _ends_at_seam(self, fits: Sequence[CurveFit], room: float) -> tuple[End, End] | None:
-        """Its ends, of which one that moves within a room about the seam is exactly there; None where there is none."""
-        ends = list(self.ends)
+    def _ends_at_seam(self, fits: Sequence[CurveFit], share: float) -> tuple[End, End] | None:
+        """Its ends, of which one within a share of a turn of the seam is exactly there; None where there is none."""
+        room, ends = share * float(np.ptp(self.samples.places)), list(self.ends)
         for side, end in enumerate(self.ends):
             at = (fits[0].start, fits[0].stop)[side] if fits else np.inf
             if end.slope and 0.0 < abs(at - self.seam) < room:
@@ -303,14 +302,14 @@ class Region:
         if _is_simple(smooth) and likely(smooth[0].squares, len(self.x)):
             return None
         beside = zip(lines, pairwise(region.parts for region in self._regions(lines)), strict=True)
-        apart = [(line, before, after) for line, (before, after) in beside]
         # rows of a slow bend are on a short line as well, but not beside a corner
-        lines = [line for line, before, after in apart if not line.is_short or is_at_corner(before, after)]
-        if not lines:
+        likely_lines = [(line, moves) for line, moves in beside if not line.is_short or is_at_corner(*moves)]
+        if not likely_lines:
             return None
+        lines = [line for line, _ in likely_lines]
         parts = self._parts_between(lines)
-        doubtful = [line for line, before, after in apart if line.is_short or is_between_longer(before, after)]
-        for line in sorted(set(doubtful) & set(lines), key=lambda line: line.last - line.first):
+        doubtful = [line for line, moves in likely_lines if line.is_short or is_between_longer(*moves)]
+        for line in sorted(doubtful, key=lambda line: line.last - line.first):
             others = [each for each in lines if each is not line]
             fits = self._fits() if line.is_short and not others else ()
             without = self._parts_between(others) if others else fits[0] if fits else parts
@@ -453,12 +452,12 @@ class Region:
             at_ends = i == 0, i == len(chain.names) - 1
             slopes = at_ends[0] * chain.slopes[0], at_ends[1] * chain.slopes[1]
             corners = bool(slopes[0]) and not chain.smooth[0], bool(slopes[1]) and not chain.smooth[1]
+            few = int(((self.x > low) & (self.x < high)).sum()) < _FEWEST_OF_LAW
             most = []
             for nu in (1, 2, 3):
                 standard = (1.0 + _ROUNDED_LAW) * max(
                     each.peak(i, nu) * (1.0 + _UNCERTAIN * each.uncertainty(i, nu)) for each in chains
                 )
-                few = int(((self.x > low) & (self.x < high)).sum()) < _FEWEST_OF_LAW
                 if any(each[i] for each in jumps[: nu - 1]) or (nu > 1 and (few or any(corners))):
                     standard = np.inf
                 most.append(max(standard, most_peak(simple, nu, low, high) if simple else 0.0))

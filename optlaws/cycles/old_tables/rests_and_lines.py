@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -64,7 +63,10 @@ def rests_of(samples: Samples) -> list[Line]:
     lines = []
     for run in runs:
         few = run[1] - run[0] + 1 < FEWEST  # no crest has most of so few rows at one position
-        first, last = max(_equal_runs(y, *run), key=lambda each: each[1] - each[0]) if few else run
+        first, last = run
+        if few:
+            equal = max(_level_runs(y[first : last + 1], 0.0), key=lambda each: each[1] - each[0])
+            first, last = first + equal[0], first + equal[1]
         exact = last - first + 1 >= _EXACT and np.ptp(y[first : last + 1]) == 0.0
         if (last - first + 1 < fewest and not exact) or taken[first : last + 1].any():
             continue
@@ -87,12 +89,6 @@ def variance_of_level_rows(samples: Samples) -> float:
     x, y, noise = (row[first : last + 1] for row in (samples.places, samples.heights, samples.noise))
     off = np.polynomial.Polynomial.fit(x, y, _RUN_DEGREE)(x) - y
     return float(((off / noise) ** 2).sum() / (len(x) - _RUN_DEGREE - 1))
-
-
-def _equal_runs(y: Array, first: int, last: int) -> list[tuple[int, int]]:
-    """The runs of equal rows within a run."""
-    ends = [first, *(first + 1 + np.flatnonzero(np.diff(y[first : last + 1]))).tolist(), last + 1]
-    return [(low, high - 1) for low, high in pairwise(ends)]
 
 
 def _level_runs(y: Array, most: float) -> Iterator[tuple[int, int]]:
@@ -224,10 +220,9 @@ def joined_over_seam(samples: Samples, lines: Sequence[Line], advance: float) ->
     last = len(samples.places) - 1
     if len(lines) < 2 or lines[0].first > 0 or lines[-1].last < last:
         return list(lines)
-    turn = float(np.ptp(samples.places))
-    behind, before = slice(lines[-1].first, last), slice(0, lines[0].last + 1)
-    x = np.concatenate([samples.places[behind] - turn, samples.places[before]])
-    y = np.concatenate([samples.heights[behind] - advance, samples.heights[before]])
+    turn, begun = float(np.ptp(samples.places)), samples.begun_at(lines[-1].first, advance)
+    rows = slice(0, last - lines[-1].first + lines[0].last + 1)
+    x, y = begun.places[rows] - turn, begun.heights[rows] - advance
     inner = slice(len(x) // 8, len(x) - len(x) // 8)
     size = max(float(samples.noise.max()), samples.digit / np.sqrt(12.0))
     if not _is_straight(x[inner], y[inner], size):
