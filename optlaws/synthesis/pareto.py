@@ -24,7 +24,6 @@ from optlaws.shown.steps import Steps
 from optlaws.shown.summary import Row
 from optlaws.synthesis.families.peaks import of_polynomials
 from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.method.stored_structures import stored_guess
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import apart, is_named, named, title_of
@@ -611,7 +610,7 @@ def least_value(problem: Problem, name: str) -> float:
     if name != "B":
         return synthesize(replace(problem, minimise=name)).objective
     extreme = extreme_velocity(problem, greatest=False)
-    optimum = solve(extreme.program, stored_guess(extreme)).optimum
+    optimum = solve(extreme.program).optimum
     if optimum is None:
         raise SolverFailure("the least B of these conditions was not found: give between", problem=problem)
     return float(optimum.x[extreme.places["B"]])

@@ -17,7 +17,6 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.method.exchange import IPOPT, ROUNDS, Method, Outcome, solve
-from optlaws.synthesis.method.stored_structures import stored_guess
 from optlaws.synthesis.method.without_interior import fallbacks_without_interior, on_equations
 from optlaws.synthesis.problem.constants import Functional, PeakConstant
 from optlaws.synthesis.problem.expression import leaves
@@ -99,7 +98,7 @@ class LawSearch:
 
         first = self._try(None, next(starts.points(self.model, self.method), None))
         if first is None or abs(first.objective - known) > AGREEMENT * known:
-            self._try_starts(stored=False)
+            self._try_starts()
         return self.candidates[0].objective if self.candidates else None
 
     def error(self) -> InfeasibleProblem | SolverFailure:
@@ -124,20 +123,14 @@ class LawSearch:
         self.outcomes.append(none)
         return True
 
-    def _try_starts(self, *, stored: bool = True) -> None:
-        """A drive's limit, a neighbour's optimum or the default start; where several may be, others until two agree.
-
-        A structure that is stored led to the best of several starts when it was stored.
-        """
+    def _try_starts(self) -> None:
+        """A drive's limit, a neighbour's optimum or the default start; where several may be, others until two agree."""
         first = self._try_drive() if self.warm is None else None
         limit = None if first is None else limit_beside(self.problem)
         if first is not None and limit is not None and first.objective <= limit.value * (1.0 + _NEAR_LIMIT):
             return
-        guess = stored_guess(self.model) if stored and self.method != IPOPT else None
-        last = self._try(self.warm or guess, None)
+        last = self._try(self.warm, None)
         if self.problem.convex or self.warm is not None or _agree(first, last):
-            return
-        if guess is not None and last is not None and self.outcomes[-1].continued:
             return
         from optlaws.synthesis.method import starts
 

@@ -63,8 +63,8 @@ class Solution(LawExport, JsonText):
         What no law of the problem's order and within its bounds can beat, whatever its degree: a closed form. None
         where none is known, as for ends other than rest.
     status, iterations, seconds
-        How it went: iterations of the solver on points (0 where the contacts were known, of a neighbour or a usual
-        problem) and the wall time.
+        How it went: iterations of the solver on points (0 where a neighbour's contacts led to the law) and the wall
+        time.
     starts
         Where the problem is not convex: the objectives that the starts led to, ascending.
     active_set

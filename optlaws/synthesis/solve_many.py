@@ -21,7 +21,7 @@ from optlaws.files.reading import check_names
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, whole
 from optlaws.shown.steps import Steps
-from optlaws.synthesis.arrays.continuation import StructureSegment, laws_along, with_stored_structures
+from optlaws.synthesis.arrays.continuation import StructureSegment, laws_along
 from optlaws.synthesis.arrays.lines import ProblemLine, along_velocities, form_of, least_count, lines_of
 from optlaws.synthesis.arrays.powers import least_power, on_global_branch, with_quick_bounds
 from optlaws.synthesis.arrays.problems import ProblemArray
@@ -90,8 +90,7 @@ def _along(problems: ProblemArray, line: ProblemLine, bound: Bound) -> SolvedBat
     def sought(place: int) -> float | None:
         return LawSearch(model_of(problems.problem(place))).least(known[place])
 
-    best = with_stored_structures(line.path, line.t, laws)
-    laws = laws.only(best | on_global_branch(laws.only(~best), line.places, sought))
+    laws = laws.only(on_global_branch(laws, line.places, sought))
     limits = [known_limit(problems.problem(place)) for place in line.places.tolist()]
     return with_quick_bounds(line.path, line.t, laws, np.array([-inf if limit is None else limit for limit in limits]))
 

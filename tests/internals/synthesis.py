@@ -46,7 +46,6 @@ from optlaws.synthesis.method.discretised.linear import vertex_on_points
 from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.exchange import Outcome, solve
-from optlaws.synthesis.method.stored_structures import key_of, stored_guess, stored_structures
 from optlaws.synthesis.method.units import units_of
 from optlaws.synthesis.pareto import HEADINGS, undominated, value_of
 from optlaws.synthesis.problem.constants import (

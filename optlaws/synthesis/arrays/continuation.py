@@ -16,15 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import nodes as chebyshev_nodes
 from optlaws.synthesis.arrays.certification import Certification, certification_of
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds
-from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, packed, step, structure_of
-from optlaws.synthesis.arrays.programs import NO_CONTACT, Numbers, Path, SolvedBatch
+from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, step, structure_of
+from optlaws.synthesis.arrays.programs import Numbers, Path, SolvedBatch
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.method.contacts import polished
 from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.method.stored_structures import StoredStructure, guess_of, is_usual, key_of, stored_structures
 from optlaws.tolerances import AGREEMENT, AT_END, VALUE_ROUNDING
 
 _SAME_STATE = 1e-5  # of a segment: states nearer to each other are one of those that others are interpolated between
@@ -46,8 +43,6 @@ _PASSED = 3
 #: laws at a time, and bytes of their matrices
 _CHUNKS = (128, 1024)
 _AT_HAND = 2**21
-#: so many laws are quicker from stored structures than from those of their neighbours
-_WITH_STORED = 1024
 #: contacts beyond the number of variables that a law may have
 _SPARE = 4
 _STARTS = np.array([0.5, 0.25, 0.75, 0.0, 1.0])
@@ -105,12 +100,7 @@ def laws_along(path: Path, t: Array, segments: list[StructureSegment] | None = N
     [5.262224, 5.173677]
     """
     program, known = path.model.program, [] if segments is None else segments
-    stored = _stored_along(path, t) if len(t) <= _WITH_STORED else None
     laws = SolvedBatch.none(len(t), program.size, program.size + _SPARE, len(program.right))
-    if stored is not None:
-        laws = _laws_of_stored_structures(path, t, stored).wider(program.size + _SPARE)
-        if laws.solved.all():
-            return laws
     for segment in known:
         _fill(laws, path, segment, t, np.flatnonzero((t >= segment.begin) & (t <= segment.end)))
     untried = np.ones(len(t), dtype=np.bool_)
@@ -118,9 +108,7 @@ def laws_along(path: Path, t: Array, segments: list[StructureSegment] | None = N
         untried[place] = False
         solved = np.flatnonzero(laws.solved)
         near = laws.active_set(int(solved[np.argmin(np.abs(solved - place))])) if len(solved) else None
-        # beyond the laws of stored structures there may be none, and to find that takes long
-        anew = stored is None or not len(solved) or bool(solved[0] < place < solved[-1])
-        following = segment_at(path, float(t[place]), near, anew=anew)
+        following = segment_at(path, float(t[place]), near)
         if following is not None and following.structure.count <= laws.u.shape[1]:
             ends = [_last_place(path, following, t, place, end) for end in _open_ends(laws.solved, place)]
             _fill(laws, path, following, t, np.arange(ends[0], ends[1] + 1))
@@ -128,13 +116,9 @@ def laws_along(path: Path, t: Array, segments: list[StructureSegment] | None = N
     return _in_own_bounds(laws, path, t)
 
 
-def segment_at(path: Path, t: float, near: ActiveSet | None, *, anew: bool = True) -> StructureSegment | None:
-    """The structure at one t, as a segment of one law; None where none is proven optimal.
-
-    Where the contacts of a nearby law do not lead to it, it is sought `anew`.
-    """
-    program = path.program(t)
-    optimum = solve(program, near).optimum if anew or near is None else polished(program, near, None)
+def segment_at(path: Path, t: float, near: ActiveSet | None) -> StructureSegment | None:
+    """The structure at one t, as a segment of one law; None where none is proven optimal."""
+    optimum = solve(path.program(t), near).optimum
     if optimum is None:
         return None
     merged = optimum.merged(_SAME)
@@ -329,67 +313,4 @@ def _in_own_bounds(laws: SolvedBatch, path: Path, t: Array) -> SolvedBatch:
     bounds = path.numbers(t).bounds
     for i in path.measured:
         laws.multiplier[:] = np.where(laws.family == i, laws.multiplier * bounds[:, i, None], laws.multiplier)
-    return laws
-
-
-def with_stored_structures(path: Path, t: Array, laws: SolvedBatch) -> NDArray[np.bool_]:
-    """A mask of laws with the contacts that are stored for them, from which no search led to a better law."""
-    alike = np.zeros(len(t), dtype=np.bool_)
-    known = _stored_along(path, t)
-    if known is None:
-        return alike
-    velocities = known.begin + t * (known.end - known.begin)
-    for stored in known.structures:
-        rows = np.flatnonzero((velocities >= stored.begin) & (velocities <= stored.end) & laws.solved)
-        count = stored.count
-        alone = (laws.family[rows, count:] == NO_CONTACT).all(axis=1)
-        pairs = ((laws.family, stored.family), (laws.sign, stored.sign), (laws.free, stored.free))
-        equal = [(values[rows, :count] == entry).all(axis=1) for values, entry in pairs if values.shape[1] >= count]
-        alike[rows] |= alone & np.logical_and.reduce(equal) if len(equal) == len(pairs) else False
-    return alike
-
-
-@dataclass(frozen=True, eq=False)
-class _StoredAlong:
-    """The structures that are stored for problems of a path, which differ in B, and the nearest one at each t."""
-
-    path: Path
-    begin: float  #: the B at t = 0
-    end: float  #: the B at t = 1
-    structures: tuple[StoredStructure, ...]
-    nearest: Places
-
-    def segment(self, i: int, t: Array) -> StructureSegment:
-        """One of the structures, with states at few of ascending t."""
-        path, stored = self.path, self.structures[i]
-        few = (t[0] + t[-1] - (t[-1] - t[0]) * chebyshev_nodes(_NEAR)) / 2.0
-        nodes = t if len(t) <= _NEAR else np.sort(few)
-        velocities = self.begin + nodes * (self.end - self.begin)
-        known = zip(nodes.tolist(), velocities.tolist(), strict=True)
-        rows = np.array([packed(guess_of(path.program(at), stored, B)) for at, B in known])
-        return StructureSegment(Structure(path.model, stored.family, stored.sign, stored.free), nodes, rows)
-
-
-def _stored_along(path: Path, t: Array) -> _StoredAlong | None:
-    """The structures that are stored for problems of a path; None where none are."""
-    first, last = path.problems
-    if not isinstance(first.B, float) or not isinstance(last.B, float):
-        return None
-    if first.shape != last.shape or not is_usual(path.model):
-        return None
-    structures = stored_structures(key_of(path.model) or "")
-    away = np.array([stored.away(first.B + t * (last.B - first.B)) for stored in structures])
-    return _StoredAlong(path, first.B, last.B, structures, np.argmin(away, axis=0))
-
-
-def _laws_of_stored_structures(path: Path, t: Array, known: _StoredAlong) -> SolvedBatch:
-    """The optima at ascending t, as far as structures that are stored lead to them."""
-    program, structures = path.model.program, known.structures
-    laws = SolvedBatch.none(len(t), program.size, max(stored.count for stored in structures), len(program.right))
-    for beside in (0, -1, 1):
-        left = ~laws.solved
-        for i in np.unique(known.nearest[left] + beside).tolist():
-            if 0 <= i < len(structures):
-                places = np.flatnonzero(left & (known.nearest + beside == i))
-                _enter(laws, path, known.segment(i, t[places]), places, t[places])
     return laws

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from optlaws.numbers import Array
 from optlaws.synthesis.arrays.powers import least_power
 from optlaws.synthesis.arrays.programs import Path, between, in_units_of, numbers_of
-from optlaws.synthesis.method.stored_structures import is_usual
 from optlaws.synthesis.problem.constants import RootMeanSquare
 from optlaws.synthesis.problem.expression import Maximum
 from optlaws.synthesis.problem.problem import Problem
@@ -24,8 +23,6 @@ _OFF_LINE = 1e-12  # of the size of a program's numbers: by so much they may be 
 
 #: laws on a line, at least: of jerk structures change often, of root mean squares hardly
 _LEAST, _LEAST_OF_JERK, _LEAST_OF_SMOOTH, _LEAST_OF_POWER = 48, 128, 24, 24
-#: where structures are stored nothing is walked along
-_LEAST_OF_USUAL = 4
 _JERK = 3
 
 
@@ -62,8 +59,6 @@ def along_velocities(
 
 def least_count(problem: Problem) -> int:
     """The least number of problems on a line that are solved faster together than alone."""
-    if is_usual(model_of(problem)):
-        return _LEAST_OF_USUAL
     if not problem.convex:
         return _LEAST_OF_POWER
     if all(isinstance(constant, RootMeanSquare) for constant in problem.constants):

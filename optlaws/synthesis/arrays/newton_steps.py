@@ -177,11 +177,6 @@ class States:
         return cls(*(rows[:, low:high] for low, high in pairwise(ends)))
 
 
-def packed(state: ActiveSet) -> Array:
-    """Numbers of one law as a row of `States.packed`, its contacts in the order of a structure."""
-    return np.concatenate([state.x, state.u, state.multipliers, state.equality_multipliers])
-
-
 def step(structure: Structure, numbers: Numbers, states: States) -> tuple[States, Array]:
     """The states after a step of Newton's method, and the size of each step; infinite where the step fails."""
     program, free = structure.model.program, structure.moving

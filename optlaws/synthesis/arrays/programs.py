@@ -183,18 +183,6 @@ class SolvedBatch(JsonText):
         """The optima of the programs at these places."""
         return SolvedBatch(**{entry.name: getattr(self, entry.name)[places] for entry in fields(self)})
 
-    def wider(self, most: int) -> Self:
-        """The same optima with room for more contacts."""
-        room = ((0, 0), (0, max(0, most - self.family.shape[1])))
-        empty = {"family": NO_CONTACT}
-        return replace(
-            self,
-            **{
-                name: np.pad(getattr(self, name), room, constant_values=empty.get(name, 0))
-                for name in ("family", "u", "sign", "free", "multiplier")
-            },
-        )
-
     def only(self, chosen: NDArray[np.bool_]) -> Self:
         """The result for some programs only; the others count as not solved."""
         return replace(self, objective=np.where(chosen, self.objective, np.nan))

@@ -25,7 +25,6 @@ from optlaws import (
 )
 from optlaws.verification import verify
 from tests.bench.plain import Rows, highs
-from tests.internals.structure_table import segments_along
 from tests.internals.synthesis import (
     FormulaFamily,
     LawSearch,
@@ -56,8 +55,15 @@ def path_of(degree: int) -> Path:
 
 
 def between_places(low: float = 0.0, high: float = 1.0) -> np.ndarray[Any, Any]:
-    """Places of a path, more than are taken from stored structures."""
+    """Places of a path."""
     return np.linspace(low, high, 2001)
+
+
+def segments_along(path: Path, t: np.ndarray[Any, Any]) -> list[StructureSegment]:
+    """The structures of the optima at ascending t, in their order."""
+    segments: list[StructureSegment] = []
+    laws_along(path, t, segments)
+    return sorted(segments, key=lambda segment: segment.begin)
 
 
 def changes(path: Path, low: float = 0.0, high: float = 1.0) -> list[float]:

@@ -1,5 +1,7 @@
 """The exchange of points: flat optima, answers that are too coarse, and breaks of pieces."""
 
+import subprocess
+import sys
 from dataclasses import replace
 from typing import Any
 
@@ -158,3 +160,13 @@ def test_a_start_ends_where_a_law_that_is_known_is_better(monkeypatch: pytest.Mo
     assert (outcome.optimum, outcome.tried, len(asked)) == (None, (), 2)
     assert outcome.rounds == 5
     assert outcome.status.startswith("no better than a law that is known")
+
+
+def test_a_law_of_linear_rows_needs_neither_casadi_nor_scipy() -> None:
+    script = (
+        "import sys, optlaws\n"
+        "optlaws.synthesize(optlaws.Problem(B=1.641, order=4))\n"
+        "print(sorted({name.partition('.')[0] for name in sys.modules} & {'casadi', 'scipy'}))"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"

@@ -214,7 +214,6 @@ def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) ->
         return Answer.missing(program, points, "InsufficientProgress", 7)
 
     monkeypatch.setattr(exchange, "optimum_on_points", failed)
-    monkeypatch.setattr(search, "stored_guess", lambda *_: None)  # which asks no solver
     asked = problem(B=1.7001)
     # where Clarabel fails the simplex method solves a linear program
     assert synthesize(asked).status == "optimal"
@@ -238,7 +237,6 @@ def test_multipliers_that_are_wrong_give_no_false_claim(monkeypatch: pytest.Monk
         return replace(answer, x=answer.x + shift, multipliers=wrong)
 
     monkeypatch.setattr(exchange, "answer_on_points", lying)
-    monkeypatch.setattr(search, "stored_guess", lambda *_: None)  # which needs no answer
     try:
         solution = synthesize(asked)
     except SolverFailure:
