@@ -127,6 +127,7 @@ def test_a_speck_in_the_slow_end_of_a_move_divides_nothing(seed: int, at: float)
     assert table.outliers == (row,)
 
 
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("seed", range(6))
 def test_crests_of_noisy_harmonics_are_no_rests(seed: int) -> None:
     """A rise of 160 deg and a return of 200 deg, of which the noise hides some degrees at both turns."""

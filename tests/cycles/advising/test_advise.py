@@ -146,13 +146,13 @@ def test_an_rms_guards_where_a_motor_is_rated_by_it_and_the_front_obeys() -> Non
         for most in (None, "2 N m")
     )
     move = Rise("45 deg", "0.25 s")
-    assert advise(move, drive=weak, points=0).guarded == ("velocity", "jerk", "torque")
-    advice = advise(move, drive=rated, points=3)
+    assert advise(move, drive=weak, points=0, degree=9).guarded == ("velocity", "jerk", "torque")
+    advice = advise(move, drive=rated, points=3, degree=9)
     assert advice.guarded == ("velocity", "jerk", "torque", "rms torque")
     usual = advice["modified sine"].values
     for law in advice.front:
         assert all(law.values[name] <= usual[name] * (1.0 + 1e-6) for name in ("velocity", "torque", "rms torque"))
-    calm = advise(move, drive=rated, points=0, follower={"frequency": "20 Hz"})
+    calm = advise(move, drive=rated, points=0, degree=9, follower={"frequency": "20 Hz"})
     calmest = calm["least residual acceleration, no worse than modified sine"].values
     assert all(calmest[name] <= usual[name] * (1.0 + 1e-6) for name in advice.guarded)
 
@@ -312,7 +312,8 @@ def test_a_motor_is_asked_for_what_it_takes() -> None:
 
 
 def test_what_cannot_be_compared_says_why() -> None:
-    shear = advise(Cycle([ConstantVelocity("1.5 m/s", "80 ms"), Return()], period="400 ms", degree=15), points=0)
+    web = Cycle([ConstantVelocity("1.5 m/s", "80 ms"), Return()], period="400 ms", degree=9)
+    shear = advise(web, points=0, degree=9)
     assert set(shear.errors) == set(STANDARD)
     assert "a jump of 1500 mm/s" in str(shear.errors["modified sine"])
     assert [law.kind for law in shear] == ["optimal"] * len(shear)

@@ -305,12 +305,12 @@ def test_no_laws_of_any_degree_beat_the_limit_of_the_period() -> None:
     assert move.best_possible is not None
     assert free.best_possible == pytest.approx((2.0 * move.best_possible + 0.04) / 0.75, rel=1e-12)
     assert move.best_possible < free.segments[0].least
-    turning = cycle(order=3, degree=25).fastest()
+    turning = cycle(order=3, degree=13).fastest()
     plain = fastest(Problem(order=3), stroke="35 mm", limits=LIMITS).best_possible
     assert plain is not None
     assert turning.best_possible is not None
     assert turning.best_possible == pytest.approx(plain * 3.6, rel=1e-12)
-    assert 1.0 < turning.period / turning.best_possible < 1.01
+    assert 1.0 < turning.period / turning.best_possible < 1.02
     given = cycle(segments=[Rise("35 mm", "120 deg", law="cycloidal"), Return("35 mm", law="cycloidal")]).fastest()
     assert given.best_possible == given.period
     for unknown in (

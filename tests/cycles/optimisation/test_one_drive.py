@@ -27,9 +27,9 @@ SHEAR = [ConstantVelocity("1.5 m/s", "80 ms"), Return()]
 SWINGS = [Dwell("0.1 s"), Free("30 mm", "0.2 s"), Free("-30 mm")]
 #: of a low degree: that two are equal is no matter of how near they are to the optimum
 TIMES: dict[str, dict[str, Any]] = {
-    "cam": {"speed": "200 rpm", "degree": 5},
+    "cam": {"speed": "200 rpm", "degree": 3},
     "shear": {"period": "400 ms", "degree": 7},
-    "swings": {"period": "0.5 s", "degree": 5},
+    "swings": {"period": "0.5 s", "degree": 3},
 }
 MOTIONS = {"cam": CAM, "shear": SHEAR, "swings": SWINGS}
 
@@ -202,7 +202,7 @@ def test_a_process_acts_on_constants_too() -> None:
 
 def test_a_range_of_the_mechanism_is_kept() -> None:
     ranged = Mechanism("2 kg", "19.6 N", over=("0 mm", "35 mm"))
-    ways: dict[str, Any] = TIMES["cam"] | {"minimise": "power"}
+    ways: dict[str, Any] = TIMES["cam"] | {"minimise": "rms force"}
     cycle, known = (Cycle(CAM, **ways, drive=drive) for drive in (ranged, ENTRIES["weight"]))
     assert cycle.lower_bound == pytest.approx(known.lower_bound, rel=1e-9)
     with pytest.raises(InputError, match=r"may turn back and leave the range of the mechanism: .* leave out its over="):
@@ -213,7 +213,7 @@ def test_tables_on_a_line_are_lines() -> None:
     table = Mechanism({"0 mm": "2 kg", "10 mm": "2 kg", "20 mm": "2 kg", "40 mm": "2 kg"},
         {"0 mm": "10 N", "20 mm": "30 N", "40 mm": "50 N"}, axis="length")  # fmt: skip
     known = {"mass": "2 kg", "stiffness": "1 N/mm", "preload": "10 N"}
-    agree(outcome("cam", table, minimise="power"), outcome("cam", known, minimise="power"))
+    agree(outcome("cam", table, minimise="rms force"), outcome("cam", known, minimise="rms force"))
 
 
 @pytest.mark.sample(3)
@@ -230,7 +230,7 @@ def test_a_constant_force_is_a_weight_and_one_over_the_way_a_spring(what: str) -
         agree((cycle.status, cycle.objective, cycle.lower_bound), known[:3])
 
 
-@pytest.mark.parametrize("rests", [True, False])
+@pytest.mark.parametrize("rests", [True, pytest.param(False, marks=pytest.mark.long)])
 def test_the_limits_of_a_motor_make_one_fastest_cycle(rests: bool) -> None:  # noqa: FBT001 - a case
     ratio, rubs = 5.0, 0.08 if rests else 0.0
     table = Mechanism("0.5 kg m^2", 3.0 if rests else 0.0, coulomb=ratio * rubs)

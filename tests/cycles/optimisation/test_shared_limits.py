@@ -106,18 +106,18 @@ def test_a_limit_that_does_not_bind_changes_nothing() -> None:
 def test_dry_friction_adds_its_square_where_motions_turn() -> None:
     """The work of inertia over a cycle is 0, so that without viscous friction the squares add up."""
     drive = INERTIA | {"dry": "0.3 N m"}
-    smooth, rough = (cycle(WAYS, minimise="rms torque", drive=one) for one in (INERTIA, drive))
+    smooth, rough = (cycle(WAYS, minimise="rms torque", drive=one, degree=3) for one in (INERTIA, drive))
     assert rough.status == "optimal"
     assert rough.objective == pytest.approx(np.hypot(smooth.objective, 0.3), rel=1e-9)
     assert rough.lower_bound == pytest.approx(rough.objective, rel=1e-7)
 
 
 def test_viscous_and_dry_friction_are_bounded_by_the_way_that_must_be_gone() -> None:
-    course = cycle(WAYS, minimise="rms torque")
+    course = cycle(WAYS, minimise="rms torque", degree=3)
     assert course.status == "local"
     assert course.lower_bound is not None
     assert 0.99 * course.objective < course.lower_bound < course.objective
-    kept = cycle(WAYS, limits={"rms torque": "0.8 N m"})
+    kept = cycle(WAYS, limits={"rms torque": "0.8 N m"}, degree=3)
     assert kept.effort.rms_force <= 0.8 * (1 + 1e-9)
     assert kept.lower_bound is not None
     assert 0.98 * kept.objective < kept.lower_bound < kept.objective
