@@ -32,7 +32,7 @@ from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.synthesis.status import Status, measure, status_of
-from optlaws.synthesis.stored_rows import plain_error, plain_state
+from optlaws.synthesis.stored_rows import plain_error
 from optlaws.tolerances import OPTIMALITY_GAP
 
 if TYPE_CHECKING:
@@ -384,7 +384,7 @@ class SolutionArray(JsonText):
         return {**{name: getattr(self, name) for name in NUMBERS}, "status": self.status.astype(str)}
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict: each solution or error in the order of the flattened array, and the arrays themselves.
+        """Plain JSON-able dict: each solution or error in the order of the flattened array, and the problems' entries.
 
         `optlaws verify` checks each solution, and `from_dict` reads it again.
         """
@@ -395,21 +395,9 @@ class SolutionArray(JsonText):
             "shape": list(self.shape),
             "seconds": self.seconds,
             "solutions": [
-                result.claims() if isinstance(result, Solution) else plain_error(result) for result in results
+                result.to_dict() if isinstance(result, Solution) else plain_error(result) for result in results
             ],
             "problems": plain_entries(self.problems.entries) if self.problems.entries else None,
-            "parts": [
-                {
-                    "places": part.places.tolist(),
-                    "problem": part.model.problem.to_dict(),
-                    "found": part.optima.to_dict(),
-                }
-                for part in self.parts
-            ],
-            "alone": {
-                str(place): plain_state(solution.z_series, solution.active_set)
-                for place, solution in self._alone.items()
-            },
         }
 
     @classmethod
@@ -431,8 +419,8 @@ class SolutionArray(JsonText):
         """
         from optlaws.synthesis.stored_solutions import read_solutions
 
-        problems, parts, others, seconds = read_solutions(data)
-        return cls(problems, tuple(SolvedPart(*part) for part in parts), others, seconds)
+        problems, results, seconds = read_solutions(data)
+        return cls(problems, (), results, seconds)
 
     def summary(self) -> Summary:
         """How many laws of each status there are, and between what objectives and gaps lie, as rows.

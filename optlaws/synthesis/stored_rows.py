@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import fields
-from functools import lru_cache
-from math import inf, isfinite
+from math import inf
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import msgspec
@@ -19,7 +18,7 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.files.reading import is_number
-from optlaws.laws import MotionLaw, smoothstep
+from optlaws.laws import MotionLaw
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.limits.of_problem import known_limit
@@ -126,30 +125,11 @@ def read_row(data: object) -> Plain:
         If an entry is missing or wrong, or states what does not follow from the problem, the law and the proofs.
     """
     row = stated(data, StatedSolution, "solution")
-    if row.state is None:
-        raise InputError("this solution has no `state`, without which it is verified but not read: solve it again")
-    state = row.state
-    return plainly(lambda: attributes(row, state, problem_of(row.problem)), "this is no solution")
+    return plainly(lambda: attributes(row, problem_of(row.problem)), "this is no solution")
 
 
-def attributes(row: StatedSolution, state: StatedState, problem: Problem) -> Plain:
-    """The attributes of the solution of a row; refused where one does not follow from problem, law and proofs."""
-    law = MotionLaw.from_dict(row.law)
-    of_law = claims_of(row, problem, law)
-    _check_z(state.z_series, problem, law)
-    return of_law | {
-        "problem": problem,
-        "law": law,
-        "z_series": tuple(state.z_series),
-        "iterations": row.iterations,
-        "seconds": row.seconds,
-        "starts": row.starts,
-        "active_set": _active_set(state.active_set, model_of(problem).program),
-    }
-
-
-def claims_of(row: StatedSolution, problem: Problem, law: MotionLaw) -> Plain:
-    """The numbers and proofs that a row states of a law.
+def attributes(row: StatedSolution, problem: Problem) -> Plain:
+    """The attributes of the solution of a row.
 
     Raises
     ------
@@ -157,12 +137,15 @@ def claims_of(row: StatedSolution, problem: Problem, law: MotionLaw) -> Plain:
         If the law breaks its problem, the objective is not the law's, nothing proves the bound, or another status
         follows from both.
     """
+    if row.state is None:
+        raise InputError("this solution has no `state`, without which it is verified but not read: solve it again")
+    law = MotionLaw.from_dict(row.law)
     proofs = {name: _read(Certificate.from_dict, getattr(row, name)) for name in _PROOFS}
     drive, limit = _read(_drive_limit, row.drive_limit), known_limit(problem)
-    value, size = evaluate(problem, law), _size(problem)
+    value, scale = evaluate(problem, law), problem.objective.scale
     if not value.sound or shortfalls(problem, law):
         raise InputError("its law does not keep the constraints of its problem")
-    if not abs(row.objective - value.objective) <= STORED_VALUE * max(abs(value.objective), size):
+    if not abs(row.objective - value.objective) <= STORED_VALUE * max(abs(value.objective), scale):
         raise InputError(f"the objective is {row.objective!r}, but that of its law {value.objective!r}")
     if any(proof is not None and proof.problem != problem for proof in proofs.values()):
         raise InputError("a proof beside its law is of another problem")
@@ -170,18 +153,27 @@ def claims_of(row: StatedSolution, problem: Problem, law: MotionLaw) -> Plain:
         raise InputError("the limit of a drive beside its law is of another problem")
     bound = -inf if row.lower_bound is None else row.lower_bound
     proven = max([-inf if limit is None else limit, *(each.bound for each in (*proofs.values(), drive) if each)])
-    if not (bound == -inf or bound <= proven + STORED_VALUE * max(abs(proven), size)):
+    if not (bound == -inf or bound <= proven + STORED_VALUE * max(abs(proven), scale)):
         raise InputError(f"the lower bound is {bound!r}, but what is proven beside it {proven!r}")
-    possible = [status_of(row.objective, bound, problem.objective.scale, proven=way) for way in _ways(problem)]
+    # whether a bound that does not meet the objective was to meet it depends on how the law was found
+    possible = {status_of(row.objective, bound, scale, proven=meets) for meets in (True, False)}
     if row.status not in possible:
         raise InputError(f"the status of the solution is {row.status.value!r}, but it is {' or '.join(possible)}")
+    _check_z(row.state.z_series, problem, law)
     return {
         **proofs,
+        "problem": problem,
+        "law": law,
+        "z_series": tuple(row.state.z_series),
         "objective": row.objective,
         "lower_bound": bound,
         "best_possible": limit,
         "status": row.status,
+        "iterations": row.iterations,
+        "seconds": row.seconds,
+        "starts": row.starts,
         "drive_limit": drive,
+        "active_set": _active_set(row.state.active_set, model_of(problem).program),
     }
 
 
@@ -189,24 +181,6 @@ def _drive_limit(data: Plain) -> DriveLimit:
     from optlaws.synthesis.limits.drive_limits import DriveLimit
 
     return DriveLimit.from_dict(data)
-
-
-def _ways(problem: Problem) -> list[bool]:
-    """Whether a bound meets the objective: a law raised to a lower bound is only partly proven."""
-    velocity = problem.range("B")
-    raised = any(limits.low > 0.0 for _, limits in problem.bounded) or (velocity is not None and velocity.low > 0.0)
-    return [*([True] if problem.convex else []), *([False] if raised or not problem.convex else [])]
-
-
-def _size(problem: Problem) -> float:
-    """The size of the objective for a plain law: the scale of rounding where an objective is nearly 0."""
-    value = _of_plain_law(problem.shape) if isinstance(problem.B, float) else _of_plain_law(problem)
-    return value if isfinite(value) else 0.0
-
-
-@lru_cache(maxsize=256)
-def _of_plain_law(problem: Problem) -> float:
-    return abs(evaluate(problem, smoothstep(min(problem.order, 10))).objective)
 
 
 def _check_z(series: list[float], problem: Problem, law: MotionLaw) -> None:

@@ -251,8 +251,8 @@ def _array(array: Data, data: Data, path: str) -> Iterator[tuple[str, FileEntry]
             yield from _no_law(row, place)
         elif {"error", "status"} != row.keys() - {"problem", "tried"} or row["status"] not in _NO_CLAIM:
             raise InputError(f"{NO_FILE}: {place} is neither a solution nor an error")
-    if any(array[name] is not None for name in ("parts", "alone", "problems")):
-        yield _place(path, "parts"), FileEntry(data)
+    if array["problems"] is not None:
+        yield _place(path, "problems"), FileEntry(data)
 
 
 def _axes(machine: Data, data: Data, path: str) -> Iterator[tuple[str, FileEntry]]:

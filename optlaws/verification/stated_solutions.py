@@ -97,13 +97,12 @@ def _proof(certificate: Certificate) -> Proof:
 
 
 def arrays(data: Data) -> Verification:
-    """The arrays beside solutions, which are verified one by one: they must agree with them."""
+    """The entries of all problems beside solutions, which are verified one by one: they must agree with them."""
     try:
         read_solutions(data)
     except InputError as error:
-        return Verification(claims=(Claim("the arrays", proven=False, detail=str(error)),))
-    detail = "their problems, laws, bounds and proofs are those of the solutions"
-    return with_claims(Verification(), [recomputed("the arrays", detail)])
+        return Verification(claims=(Claim("the problems", proven=False, detail=str(error)),))
+    return with_claims(Verification(), [recomputed("the problems", "they are those of the solutions")])
 
 
 def drive_limit(data: Data) -> Verification:

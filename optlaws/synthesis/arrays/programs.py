@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
 from itertools import starmap
 from typing import Any, Self
@@ -10,7 +10,6 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.files.reading import JsonText
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
@@ -121,12 +120,9 @@ def _alike(first: ConstraintFamily, other: ConstraintFamily) -> bool:
 
 NO_CONTACT = -1
 
-#: what is computed from the laws when they are read
-FOLLOWING = ("objective", "excess")
-
 
 @dataclass(frozen=True, eq=False)
-class SolvedBatch(JsonText):
+class SolvedBatch:
     """Optima of programs that differ in numbers alone, one a row; NaN in the rows of programs that were not solved."""
 
     x: Array  #: the programs' variables, shape (programs, variables)
@@ -138,8 +134,7 @@ class SolvedBatch(JsonText):
     multiplier: Array
     equations: Array  #: multipliers of the equations, shape (programs, equations)
     #: objective, bound, excess: the objective, what is proven that no law is below, and the most by which a row is
-    #: broken (NaN of laws that were read from a file, which keep their rows as every `Solution` does); shape
-    #: (programs,)
+    #: broken; shape (programs,)
     objective: Array
     bound: Array
     excess: Array
@@ -192,13 +187,3 @@ class SolvedBatch(JsonText):
         for entry in fields(self):
             getattr(self, entry.name).setflags(write=False)
         return self
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain lists of what does not follow from the laws: all but objectives and excesses."""
-        return {entry.name: getattr(self, entry.name).tolist() for entry in fields(self) if entry.name not in FOLLOWING}
-
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Self:
-        """Read what `to_dict` wrote, and what follows; it is checked by whoever reads."""
-        kinds = {"family": np.int16, "free": np.bool_}
-        return cls(**{name: np.array(value, dtype=kinds.get(name, np.float64)) for name, value in data.items()})
