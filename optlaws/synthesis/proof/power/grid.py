@@ -99,6 +99,7 @@ def _inverses(matrices: Array) -> Array:
 
 _GRID_NEAR = 1e-3  # of a right side: rows nearer to binding join the grid
 _GRID_EMPTY = 1e-9  # of the greatest entry: a row that is shorter says nothing
+_GRID_ROUNDING = 1e-13  # of a row's size: what is less is nothing
 _GRID_LIGHT = 1e-13  # of the greatest multiplier: what is less is rounding
 
 _PLACES = 16
@@ -162,8 +163,12 @@ class Grid:
             self._fix(joined)
 
     def _fix(self, contacts: Sequence[Contact]) -> None:
-        self.contacts += contacts
-        self.fixed = np.vstack([self.fixed, self.rows.of_contacts(contacts, self.rows.root())])
+        rows = self.rows.of_contacts(contacts, self.rows.root())
+        units = np.array([self.rows.units.get(contact.constraint, 0.0) for contact in contacts])
+        # at an end that is given rows are nothing but rounding
+        some = np.abs(rows * self.rows.sizes).max(axis=1) > _GRID_ROUNDING * units
+        self.contacts += [contact for contact, keep in zip(contacts, some.tolist(), strict=True) if keep]
+        self.fixed = np.vstack([self.fixed, rows[some]])
 
     def _norm(self, family: NormFamily, x: Array) -> None:
         image = family.matrix @ np.append(x, 1.0)

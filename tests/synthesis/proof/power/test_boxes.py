@@ -18,6 +18,7 @@ from optlaws import (
     Problem,
     Solution,
     Tightening,
+    Window,
     at_most,
     inertial_loader,
     integral,
@@ -209,6 +210,13 @@ def test_a_tight_bound_meets_the_objective_and_is_proven_exactly(problem: Proble
     data = json.loads(json.dumps(solution.to_dict()))
     assert Certificate.from_dict(data["power_certificate"]).bound == solution.lower_bound
     assert verify(data).proven
+
+
+def test_a_window_whose_row_is_nothing_at_an_end_does_not_stop_the_search() -> None:
+    """A displacement that is given there bounds no law; scaled to the box, what rounding leaves of it would."""
+    windows = (Window("a", 0.0, 1.0), Window("c - b^2", high=4.0))
+    problem = Problem(order=3, basis=Chebyshev(9), symmetric=False, windows=windows)
+    assert synthesize(problem, bound="tight").status.value == "optimal"
 
 
 def test_power_as_a_formula_has_the_optimum_of_power() -> None:
