@@ -19,7 +19,7 @@ from optlaws.cams.disc import DiscCam, Turning, sense
 from optlaws.cams.followers.contact import CURVATURE, PRESSURE, FollowerContact, LinearLimit
 from optlaws.cams.followers.follower import CamFollower, Place, shown
 from optlaws.cams.least_sizes import CamLimits, LeastPrimeCircle, least_prime_circle
-from optlaws.cams.roller_curvature import RollerCurvature, bound_under, curvature_of
+from optlaws.cams.roller_curvature import RollerCurvature, curvature_of
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
 from optlaws.cycles.optimisation.optimal import span_problem
@@ -42,11 +42,10 @@ _CAM_GAIN = 1e-4  # of an objective: a round that gains less is the last
 
 
 class SolvedPiece(NamedTuple):
-    """A piece of a cycle with its law, its solution if the law is optimised, and possibly a better bound."""
+    """A piece of a cycle with its law, and its solution if the law is optimised."""
 
     piece: Piece
     solution: Solution | None
-    bound: float | None = None
 
 
 Solved: TypeAlias = list[SolvedPiece]
@@ -124,8 +123,8 @@ def best_cam(
     """The optimal laws of a cycle under limits of its cam, at a given prime circle.
 
     Displacements stay between those of the cycle's joints. The curvature under a roller is no convex limit of the law:
-    where the best laws without it break it, laws within it are computed, and the bound, which holds for all laws, is a
-    little below them; the status then is "local".
+    where the best laws without it break it, laws within it are computed and, up to degrees of 15 or so, proven by a
+    search over boxes, which takes some seconds.
 
     Parameters
     ----------
@@ -171,7 +170,8 @@ def best_cam(
                 joined("; ", broken.values()),
             )
         )
-    return _bounded_by(plan, cam, lambda: _total(cycle, _outer(cycle, given, limits, within, inner)))
+    exact = bounds_are_of_all(cam.contact, limits)
+    return _bounded_by(plan, cam, lambda: _total(cycle, inner if exact else _beyond(cycle, given, limits)))
 
 
 def cam_of_laws(plan: Plan, cam: DiscCam, lower_bound: float | None = None) -> BestCam:
@@ -188,6 +188,11 @@ def _bounded_by(plan: Plan, cam: DiscCam, bound: Callable[[], float]) -> BestCam
     return BestCam(cam, plan.objective, tuple(plan.solutions), proof)
 
 
+def bounds_are_of_all(contact: FollowerContact, limits: CamLimits) -> bool:
+    """Whether the problems of laws under limits of a cam have these limits themselves, and not lines within them."""
+    return contact.linear or limits.pressure_angle is None
+
+
 def bounds_hold(plan: Plan, cam: DiscCam, limits: CamLimits) -> bool:
     """Whether the bounds of a plan's solutions are those of all its laws that keep the limits of its cam.
 
@@ -196,7 +201,7 @@ def bounds_hold(plan: Plan, cam: DiscCam, limits: CamLimits) -> bool:
     objective, contact = plan.specification.in_si, cam.contact
     for span, piece, solution in plan.laws:
         known = [span_problem(span, objective)]
-        if contact.linear:
+        if bounds_are_of_all(contact, limits):
             each = linear_limits(piece, contact, limits.in_si, plan.duration, below=True)
             known.append(_problem(known[0], [limit.window() for limit in each], ()))
             bend = None if limits.radius is None else curvature_of(piece, contact, limits.radius, plan.duration)
@@ -257,7 +262,7 @@ def best_prime_circle(
         raise InputError(f"the least prime circle of all laws under this follower takes the limit {_NAMED[limit]}")
     sizing = {limit: limits[limit]}
     solutions = []
-    for piece, solution, _ in _with_solutions(cycle):
+    for piece, solution in _with_solutions(cycle):
         if solution is not None:
             excesses = _excesses(piece, contact, sizing, cycle.duration)
             solutions.append(synthesize(_problem(solution.problem, (), excesses)))
@@ -289,7 +294,7 @@ def prime_circle_of_laws(
     limit, contact = follower.sizing_limit, _unit_contact(plan, follower, sense(turning))
     sizing = {name: size for name, size in given.in_si.items() if name == limit}
     needs = []
-    for piece, solution, _ in _with_solutions(plan):
+    for piece, solution in _with_solutions(plan):
         if solution is None:
             excesses = _excesses(piece, contact, sizing, plan.duration)
             needs += [abs(piece.stroke) * excess.value(piece.law) for excess in excesses]
@@ -337,7 +342,7 @@ def _with_solutions(cycle: Cycle | Plan) -> Solved:
 def _solved(cycle: Cycle, cam: DiscCam, limits: dict[str, float], *, below: bool) -> Solved:
     """The pieces with laws that keep lines below the limits, or above them."""
     solved: Solved = []
-    for piece, solution, _ in _with_solutions(cycle):
+    for piece, solution in _with_solutions(cycle):
         if solution is None:
             solved.append(SolvedPiece(piece, None))
             continue
@@ -353,7 +358,7 @@ def _solved(cycle: Cycle, cam: DiscCam, limits: dict[str, float], *, below: bool
 
 def _refuse_radius_of_no_law(cycle: Cycle, cam: DiscCam, radius: float | None) -> None:
     """Refuse a least radius in m that no law gives the profile, as far as ends of the motions say so."""
-    for piece, solution, _ in _with_solutions(cycle):
+    for piece, solution in _with_solutions(cycle):
         curvature = None if radius is None else curvature_of(piece, cam.contact, radius, cycle.duration)
         if solution is None or curvature is None:
             continue
@@ -383,23 +388,18 @@ def _with_curvature(cycle: Cycle, cam: DiscCam, radius: float | None, within: So
     return met
 
 
-def _outer(cycle: Cycle, cam: DiscCam, limits: CamLimits, within: Solved, met: Solved) -> Solved:
-    """The pieces with solutions whose bounds are those of all laws, where others `met` a radius of curvature."""
-    outer = within if cam.contact.linear else _solved(cycle, cam, limits.in_si, below=False)
-    bounded: Solved = []
-    for known, best, beyond in zip(within, met, outer, strict=True):
-        if best is known or best.solution is None or beyond.solution is None or limits.radius is None:
-            bounded.append(beyond)
-            continue
-        curvature = curvature_of(known.piece, cam.contact, limits.radius, cycle.duration)
-        assert curvature is not None  # noqa: S101 - it was broken
-        bounded.append(beyond._replace(bound=bound_under(curvature, beyond.solution.problem, best.solution.objective)))
-    return bounded
+def _beyond(cycle: Cycle, cam: DiscCam, limits: CamLimits) -> Solved:
+    """The pieces with solutions whose bounds are those of all laws, by lines above the limits of the pressure angle."""
+    beyond = _solved(cycle, cam, limits.in_si, below=False)
+    try:
+        return _with_curvature(cycle, cam, limits.radius, beyond)
+    except SolverFailure:
+        return beyond
 
 
 def _solved_with_curvature(problem: Problem, curvature: RollerCurvature) -> Solution:
     try:
-        return synthesize(replace(problem, windows=(*problem.windows, curvature.window())))
+        return synthesize(replace(problem, windows=(*problem.windows, curvature.window())), bound="tight")
     except (InfeasibleProblem, SolverFailure):
         raise SolverFailure(
             f"no law was found from {curvature.piece.start:.6g} s on that keeps the least radius of curvature, and "
@@ -441,9 +441,10 @@ def _total(cycle: Cycle | Plan, solved: Solved) -> float:
     if not kind.order:
         return _plan(cycle, solved).lower_bound or 0.0
     nu = kind.order
-    for piece, solution, bound in solved:
-        constant = solution.lower_bound if solution is not None and bound is None else bound
-        if constant is None:
+    for piece, solution in solved:
+        if solution is not None:
+            constant = solution.lower_bound
+        else:
             constant = 0.0 if piece.stroke == 0.0 else piece.law.rms(nu) if mean else piece.law.peak(nu).value
         sizes.append((piece.duration, abs(piece.stroke) / piece.duration**nu * constant))
     if mean:

@@ -15,6 +15,7 @@ from optlaws.cams.best_laws import (
     BestPrimeCircle,
     best_cam,
     best_prime_circle,
+    bounds_are_of_all,
     bounds_hold,
     cam_of_laws,
     prime_circle_of_laws,
@@ -268,7 +269,7 @@ class CamResult:
             if self.known is None:
                 return best_cam(spec.cycle, radius, follower, **limits)
             cam = DiscCam(self.known, radius, follower, turning=spec.turning)
-            return cam_of_laws(self.known, cam, None if self._has_linear_limits(cam) else self.bound)
+            return cam_of_laws(self.known, cam, None if bounds_are_of_all(cam.contact, spec.limits) else self.bound)
         if spec.best is None:
             return None if radius is not None else least_prime_circle(self.motion, follower, **limits)
         if not isinstance(follower, TranslatingRoller):
@@ -281,10 +282,6 @@ class CamResult:
     def motion(self) -> Cycle | Plan:
         """The motion of the file, with the laws that are known."""
         return self.spec.cycle if self.known is None else self.known
-
-    def _has_linear_limits(self, cam: DiscCam) -> bool:
-        """Whether the limits of a cam are linear in its laws, so that their own bounds are bounds of all laws."""
-        return bool(cam.contact.linear) and not (cam.contact.roller and self.spec.limits.radius is not None)
 
     @property
     def minimises_over_cycle(self) -> bool:

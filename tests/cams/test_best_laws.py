@@ -197,14 +197,14 @@ def test_curvature_under_a_roller_is_imposed_and_bounded(case: str) -> None:
     if "pressure_angle" in limits:
         assert np.degrees(best.cam.extremes.greatest_pressure_angle.high) <= 27.0 + 1e-6
     assert DiscCam(cycle, base, follower).extremes.least_convex_radius.high < 0.999 * expected
-    assert cycle.objective * 1.0001 < best.lower_bound <= best.objective < 1.02 * best.lower_bound
-    assert best.status is Status.LOCAL
+    assert cycle.objective * 1.0001 < best.lower_bound <= best.objective
+    assert best.status is Status.OPTIMAL
+    assert all(solution.power_certificate.proven for solution in best.solutions if solution.power_certificate)
 
 
 @pytest.mark.parametrize("turning", [1.0, -1.0])
 @pytest.mark.parametrize("kind", ["slide", "arm"])
-def test_planes_are_nowhere_above_what_the_curvature_needs(kind: str, turning: float) -> None:
-    """Where the pitch curve bends as much as it may, by the contact's own curvature, every plane says it may."""
+def test_the_limit_of_a_law_is_reached_where_the_pitch_curve_bends_as_much_as_it_may(kind: str, turning: float) -> None:
     roller = {
         "slide": SlidingRoller(turning, 0.0, 0.05, 0.012, offset=0.006),
         "arm": SwingingRoller(turning, 0.0, 0.5, 0.014, arm=0.11, distance=0.14),
@@ -213,33 +213,20 @@ def test_planes_are_nowhere_above_what_the_curvature_needs(kind: str, turning: f
     piece = Piece(0.0, 0.3, 0.1 * stroke, -0.8 * stroke, smoothstep(3))
     curvature = curvature_of(piece, roller, 0.03, 1.0)
     assert curvature is not None
-    k = np.linspace(0.0, 1.0, 9)
     rng = np.random.default_rng(5)
-    middles = 0.5 * (k[:-1] + k[1:])
-    pairs = [
-        [(one - 0.02, one + 0.02) for one in np.asarray(law(middles)).tolist()] for law in (piece.law.a, piece.law.b)
-    ]
-    planes = curvature.planes(k.tolist(), *pairs)
-    assert len(planes) == 8
-    for plane, first, second in zip(planes, *pairs, strict=True):
-        at, rate = (rng.uniform(low, high, 200) for low, high in (first, second))
-        s, slope = piece.offset + piece.stroke * at, piece.stroke * rate / (2 * np.pi * piece.duration)
+    at, rate = rng.uniform(0.0, 1.0, 200), rng.uniform(0.0, 2.0, 200)
+    s, slope = piece.offset + piece.stroke * at, piece.stroke * rate / (2 * np.pi * piece.duration)
 
-        def bent(bend: float, s: Array = s, slope: Array = slope) -> Array:
-            return np.asarray(roller.curvature(Jet((s, slope, 0.5 * bend * np.ones(200)))).terms[0])
+    def bent(bend: float) -> Array:
+        return np.asarray(roller.curvature(Jet((s, slope, 0.5 * bend * np.ones(200)))).terms[0])
 
-        # the curvature is affine in s''
-        none, one = bent(0.0), bent(1.0)
-        least = (1.0 / (0.03 + roller.roller) - none) / (one - none)
-        c = least * (2 * np.pi * piece.duration) ** 2 / piece.stroke
-        assert plane.motion is not None
-        values = evaluate(plane.motion.formula, {"a": at, "b": rate, "c": c}, NUMPY)
-        limit = curvature.window().motion
-        assert limit is not None
-        exact = evaluate(limit.formula, {"a": at, "b": rate, "c": c}, NUMPY)
-        assert np.abs(exact).max() < 1e-9
-        assert (values <= plane.high + 1e-9).all()
-        assert values.max() > plane.high - 0.02
+    # the curvature is affine in s''
+    none, one = bent(0.0), bent(1.0)
+    least = (1.0 / (0.03 + roller.roller) - none) / (one - none)
+    c = least * (2 * np.pi * piece.duration) ** 2 / piece.stroke
+    limit = curvature.window().motion
+    assert limit is not None
+    assert np.abs(np.asarray(evaluate(limit.formula, {"a": at, "b": rate, "c": c}, NUMPY))).max() < 1e-9
 
 
 def test_what_has_no_best_law_says_the_remedy() -> None:
