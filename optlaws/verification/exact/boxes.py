@@ -31,7 +31,7 @@ from optlaws.synthesis.proof.power.rows import POWER_ROWS, applies
 from optlaws.verification.enclosing.ball_formulas import BALLS
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.exact.law import known
-from optlaws.verification.exact.rows import ExactRows
+from optlaws.verification.exact.rows import ExactRows, formula_windows
 from optlaws.verification.machines.floors import floor
 
 Vector = list[arb]
@@ -311,14 +311,16 @@ class _FormulaProof(BoxSteps):
         sought = (leaf for _, leaf in leaves(self.problem.objective) if isinstance(leaf, Functional))
         bounded: list[tuple[Functional, dict[str, float], float]] = [(leaf, {leaf.name: -1.0}, 0.0) for leaf in sought]
         bounded += [(constant, {}, limits.high) for constant, limits in self.problem.bounded if isfinite(limits.high)]
-        branches = {}
+        curved = list[tuple[Branch, dict[str, float], float]]()
+        curved += [(branch, {}, high) for branch, high in formula_windows(self.problem)]
         for constant, slack, high in bounded:
-            if not isinstance(constant, FormulaPeak | FormulaValue):
-                continue
-            for branch in constant.branches(symmetric=self.problem.symmetric):
-                count = len(branch.motion.formula.names() & ORDERS.keys())
-                for i, way in enumerate([None, *product((-1, 1), repeat=count)]):
-                    branches[names.plane(i, branch.name), branch.sign] = (branch, way, slack, high)
+            if isinstance(constant, FormulaPeak | FormulaValue):
+                curved += [(branch, slack, high) for branch in constant.branches(symmetric=self.problem.symmetric)]
+        branches = {}
+        for branch, slack, high in curved:
+            count = len(branch.motion.formula.names() & ORDERS.keys())
+            for i, way in enumerate([None, *product((-1, 1), repeat=count)]):
+                branches[names.plane(i, branch.name), branch.sign] = (branch, way, slack, high)
         return branches
 
     def _range(self, name: str, row: Vector, box: BallBox, k: Fraction) -> tuple[arb, arb]:

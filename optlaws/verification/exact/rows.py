@@ -370,12 +370,10 @@ class ExactRows:
         for condition in self.space.conditions:
             self.equations.append(BallRow(self.space.condition(condition), {}, -ball(condition.value)))
         for i, window in enumerate(problem.windows, 1):
-            halves = (names.window(i), names.mirrored(names.window(i)))
-            if window.motion is not None:
-                self._formula_window(window, window.motion, halves)
-                continue
-            for part, name in zip(parts(window, symmetric=problem.symmetric), halves, strict=False):
-                self._window(name, window, part)
+            self._window(i, window)
+        for branch, bound in formula_windows(problem):
+            if branch.convex:
+                self._branch(branch, UpperLimit(high=bound))
 
     def _range(self, constant: Functional, limits: Range) -> None:
         name = constant.name
@@ -426,20 +424,18 @@ class ExactRows:
         pairs = zip(self.space.values(1, k), self.space.values(1, Fraction(1, 2)), strict=True)
         return BallRow([velocity * contact.sign - middle for velocity, middle in pairs])
 
-    def _formula_window(self, window: Window, motion: MotionFormula, halves: tuple[str, str]) -> None:
-        separate = motion.halves() if self.problem.symmetric else (motion,)
-        for part, name in zip(separate, halves, strict=False):
-            if window.value:
-                columns = formula_columns(self.space, part, Fraction(part.start))
+    def _window(self, number: int, window: Window) -> None:
+        """The rows of a window by its number, of a formula its value alone."""
+        if window.motion is None:
+            halves = names.window(number), names.mirrored(names.window(number))
+            for part, name in zip(parts(window, symmetric=self.problem.symmetric), halves, strict=False):
+                self._window_part(name, window, part)
+        elif window.value:
+            for motion in _separate(self.problem, window.motion):
+                columns = formula_columns(self.space, motion, Fraction(motion.start))
                 self.equations.append(BallRow(columns, {}, -ball(window.high)))
-                continue
-            for sign, bound in ((1.0, window.high), (-1.0, -window.low)):
-                branches = split(part, sign, names.window_side(name, sign)) if isfinite(bound) else None
-                for branch in branches or []:
-                    if branch.convex:
-                        self._branch(branch, UpperLimit(high=bound))
 
-    def _window(self, name: str, window: Window, part: WindowPart) -> None:
+    def _window_part(self, name: str, window: Window, part: WindowPart) -> None:
         if window.value:
             values = self.space.values(part.order, part.start)
             self.equations.append(BallRow(values, {}, -ball(part.high or Fraction(0))))
@@ -472,6 +468,23 @@ def _exact(value: float) -> Number:
 
 def _root(square: Number) -> Number:
     return upper(ball(square).sqrt()) if isfinite(square) else square
+
+
+def formula_windows(problem: Problem) -> Iterator[tuple[Branch, float]]:
+    """The smooth formulas of which the windows of formulas bound the greatest, each with what it is at most."""
+    for i, window in enumerate(problem.windows, 1):
+        if window.motion is None or window.value:
+            continue
+        halves = (names.window(i), names.mirrored(names.window(i)))
+        for part, name in zip(_separate(problem, window.motion), halves, strict=False):
+            for sign, bound in ((1.0, window.high), (-1.0, -window.low)):
+                branches = split(part, sign, names.window_side(name, sign)) if isfinite(bound) else None
+                yield from ((branch, bound) for branch in branches or [])
+
+
+def _separate(problem: Problem, motion: MotionFormula) -> tuple[MotionFormula, ...]:
+    """A formula on the parts of the interval that rows speak of."""
+    return motion.halves() if problem.symmetric else (motion,)
 
 
 def parts(window: Window, *, symmetric: bool) -> Iterator[WindowPart]:

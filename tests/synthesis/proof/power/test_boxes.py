@@ -216,7 +216,9 @@ def test_a_window_whose_row_is_nothing_at_an_end_does_not_stop_the_search() -> N
     """A displacement that is given there bounds no law; scaled to the box, what rounding leaves of it would."""
     windows = (Window("a", 0.0, 1.0), Window("c - b^2", high=4.0))
     problem = Problem(order=3, basis=Chebyshev(9), symmetric=False, windows=windows)
-    assert synthesize(problem, bound="tight").status.value == "optimal"
+    solution = synthesize(problem, bound="tight")
+    assert solution.status.value == "optimal"
+    assert verify(solution.to_dict()).proven
 
 
 def test_power_as_a_formula_has_the_optimum_of_power() -> None:
