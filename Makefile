@@ -81,7 +81,7 @@ check-results: $(DEV) ## run every problem file on a copy of results/ and see th
 	$(BIN)/python -m tests.check_results $(UNSTEADY)
 
 check-proofs: $(DEV) ## check every proof of results/ with optlaws verify and with the program in JavaScript
-	$(BIN)/python -m tests.check_proofs
+	$(BIN)/python -m tests.check_proofs $(if $(CI),--each 4)
 
 constraints: $(BIN)/python ## resolve every dependency again into constraints.txt (needs uv)
 	@test -n "$(UV)" || { echo "make constraints needs uv" >&2; exit 1; }
