@@ -306,6 +306,7 @@ def test_a_move_about_a_constant_velocity_ends_where_this_goes_on() -> None:
     assert table.peaks[1].high < 1.1 * peak
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("noise", [0.0, 5e-3])
 @pytest.mark.parametrize("name", ["cycloidal", "simple harmonic", "4-5-6-7 polynomial", "modified trapezoid"])
 def test_standard_laws_between_dwells_have_no_corners(name: str, noise: float) -> None:
@@ -346,6 +347,7 @@ def test_a_rest_that_meets_a_ramp_of_constant_velocity_at_a_corner_stays(begin: 
     assert table.off[0] <= table.room * (1.0 + 1e-9)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("begin", "lift", "end", "ramp", "name", "noise", "mirrored"),
     [
@@ -462,6 +464,7 @@ def test_a_motion_without_rest_begins_where_it_turns_and_not_at_its_lowest_row()
     assert cycle.duration == pytest.approx(0.3)
 
 
+@pytest.mark.sample(5)
 @pytest.mark.parametrize("seed", [119, 0, 1, 2, 3])
 def test_harmonics_that_turn_before_or_behind_their_lowest_row_move(seed: int) -> None:
     t, noise = np.radians(np.arange(360.0)), np.random.default_rng(seed).normal(0.0, 0.002, 360)
@@ -489,11 +492,12 @@ def test_a_jump_of_the_jerk_at_a_steep_place_is_no_corner() -> None:
     assert table.peaks[1].holds(116.0 * 2.0 * np.pi / 100.0**2)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("rows", "noise", "corners", "lift"),
     [
-        (721, 5e-3, (31.0, 66.0, 259.0, 322.0), (2.3, 4.2)),
         (361, 1e-2, (142.0, 168.0, 212.0, 247.0), (4.9, 3.0)),
+        (721, 5e-3, (31.0, 66.0, 259.0, 322.0), (2.3, 4.2)),
         (1441, 2e-3, (48.0, 83.0, 229.0, 321.0), (4.9, 4.3)),
         (1441, 5e-3, (97.0, 130.0, 243.0, 279.0), (1.08, 3.68)),  # one velocity is 0.73 of the one before
         (361, 5e-3, (58.0, 87.0, 119.0, 332.0), (4.01, 0.35)),  # the rest over the seam meets a slow line
@@ -660,6 +664,7 @@ def test_ramps_of_eleven_rows_between_corners_are_lines(seed: int) -> None:
     assert np.isinf(table.peaks[1].high)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("rows", "dwell"), [(73, 5.0), (72, 5.0), (91, 15.0), (121, 8.0)])
 def test_short_dwells_between_short_moves_of_coarse_tables_are_read(rows: int, dwell: float) -> None:
     """Moves of some ten rows tell no noise from the motion: they had points far off, and began 20 deg too early."""
