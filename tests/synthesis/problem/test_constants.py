@@ -230,11 +230,6 @@ def test_most_starts_agree() -> None:
     assert sum(value <= 1e-6 for value in spread) >= len(spread) // 2
 
 
-def test_a_stored_structure_is_a_start_of_its_own() -> None:
-    solution = least_power(VELOCITIES[0])
-    assert solution.starts == (solution.objective,)
-
-
 @pytest.mark.sample(6)
 @pytest.mark.parametrize("B", [1.2, 1.3, 1.4, 1.5, 1.75, 2.1, 2.6])
 def test_no_law_that_does_not_turn_back_has_less_power_than_an_energy_allows(B: float) -> None:
