@@ -36,7 +36,7 @@ from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.limits.phase_plane import TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_plane_program import optimum
 from optlaws.synthesis.limits.rounding import not_above, root_rounded_down, rounded_down, rounded_up
-from optlaws.synthesis.method import exchange, few_families, starts
+from optlaws.synthesis.method import exchange, starts
 from optlaws.synthesis.method.discretised import ipopt, linear, quadratic_steps
 from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.synthesis.method.discretised.conic import optimum_on_points

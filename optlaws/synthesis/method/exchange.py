@@ -26,7 +26,6 @@ from optlaws.synthesis.method.discretised.answer import Answer
 from optlaws.synthesis.method.discretised.conic import of_cones, optimum_on_points
 from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
 from optlaws.synthesis.method.equations import contradiction, independent
-from optlaws.synthesis.method.few_families import binding_few
 from optlaws.synthesis.method.identified import as_answered, identified
 from optlaws.synthesis.method.units import units_of
 from optlaws.synthesis.method.vanishing import amplitudes, at_apex, nearly_vanished, vanishing
@@ -50,7 +49,6 @@ _SETTLED_BY = 4
 _AMPLE = 1.2
 #: places of an integral in a linear program that shows its kinks, and in one more where that does not
 _PLACES = (160, 640)
-_CONTINUED = "continued from a neighbour"
 _WORSE = "no better than a law that is known, on few points already"
 _STALLED = "and what answers exceed between the points falls no more"
 
@@ -67,11 +65,6 @@ class Outcome:
     rounds: int
     status: str
     tried: tuple[ActiveSet, ...] = ()
-
-    @property
-    def continued(self) -> bool:
-        """Whether the contacts of a neighbour's optimum, or of a guess, led to it."""
-        return self.status == _CONTINUED
 
     def mapped(self, change: Callable[[ActiveSet], ActiveSet]) -> Outcome:
         """The same outcome for a program in other variables or equations."""
@@ -106,32 +99,18 @@ def solve(
     """Solve a semi-infinite program; a neighbour's optimum as `warm` is tried first, and the solver begins at `start`.
 
     `holds` may decide from x alone, and more quickly than the families do, whether every constraint holds, and `worse`
-    whether a law that is known is better than any that it may lead to. Of very many families those that bind are found
-    by exchange: a law that none of the others excludes is the optimum of all.
+    whether a law that is known is better than any that it may lead to. It is solved in units in which its numbers are
+    near 1.
     """
-    few = binding_few(program)
-    if few is None:
-        return _in_units(program, warm, _Options(start, holds, rounds, method, worse))
-    while True:
-        outcome = _in_units(few.program, few.inward(warm), _Options(start, None, rounds, method, worse))
-        warm = None if outcome.optimum is None else few.outward(outcome.optimum)
-        more = None if warm is None else few.joined_beyond(warm.x)
-        if more is None:
-            return outcome.mapped(few.outward)
-        few = more
-
-
-def _in_units(program: Program, warm: ActiveSet | None, options: _Options) -> Outcome:
-    """The solution of a program in units in which its numbers are near 1."""
     units = units_of(program)
     if units is None:
-        return _in_own_units(program, warm, options)
-    start, holds, worse = options.start, options.holds, options.worse
-    within = replace(
-        options,
-        start=None if start is None else start / units.variables,
-        holds=None if holds is None else lambda x: holds(x * units.variables),
-        worse=None if worse is None else lambda x: worse(x * units.variables),
+        return _in_own_units(program, warm, _Options(start, holds, rounds, method, worse))
+    within = _Options(
+        None if start is None else start / units.variables,
+        None if holds is None else lambda x: holds(x * units.variables),
+        rounds,
+        method,
+        None if worse is None else lambda x: worse(x * units.variables),
     )
     return _in_own_units(units.program, None if warm is None else units.inward(warm), within).mapped(units.outward)
 
@@ -141,7 +120,7 @@ def _in_own_units(program: Program, warm: ActiveSet | None, options: _Options) -
     if warm is not None:
         optimum = polished(program, warm, options.holds)
         if optimum is not None:
-            return Outcome(optimum, 0, 0, _CONTINUED)
+            return Outcome(optimum, 0, 0, "continued from a neighbour")
     chosen = independent(program.equalities)
     if chosen.all():
         return _solved(program, options)
