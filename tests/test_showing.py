@@ -30,9 +30,9 @@ from optlaws import (
 )
 from optlaws.results import Page
 from tests.cli.test_show import Terminal
-from tests.internals.explorer import fact_sentences, panel_data
+from tests.internals.explorer import fact_sentences, panel_data, table_data
 from tests.internals.plots import draw_panels, empty_figure
-from tests.internals.shown import Row, Section, Summary, report_page, showing, steps
+from tests.internals.shown import ReportTable, Row, Section, Summary, report_page, showing, steps
 from tests.internals.studies import Bar, Silent, watching
 
 
@@ -327,6 +327,11 @@ def test_a_section_is_a_part_of_a_page_and_a_list_of_sentences() -> None:
     named = Section("Sizes", section.facts[:1], figure=("cam", "A cam"), note="That is all.", digits=3)
     parts = [part for part in str(Page("a result").section(named)).split("\n\n")[2:] if part]
     assert [part.partition(" ")[0] for part in parts] == ["##", "![A", "|", "That"]
+
+
+def test_numbers_of_a_table_have_their_units_with_them_on_the_page() -> None:
+    table = ReportTable(["what", "least", "unit"], [["radius", 5.0, "mm"], ["turn", np.inf, ""]])
+    assert table_data(table) == {"headings": ["what", "least"], "rows": [["radius", "5 mm"], ["turn", None]]}
 
 
 # --- summaries ---

@@ -105,9 +105,10 @@ def test_any_problem_has_a_view(served: Server, entries: dict[str, Any]) -> None
     assert ("panels" in view) != ("refused" in view)
 
 
-def test_a_port_that_is_taken_is_refused_by_its_number() -> None:
+def test_a_port_that_is_taken_is_refused_by_its_number_and_one_of_this_machine_alone_is_opened() -> None:
     with opened(0) as listening:
-        port = listening.getsockname()[1]
+        name, port = listening.getsockname()
+        assert name == "127.0.0.1"
         with pytest.raises(InputError, match=f"--port {port}: .*take another, or 0"):
             opened(port)
     with pytest.raises(InputError, match="--port is a number from 0"):

@@ -1,6 +1,5 @@
 """Internals of `optlaws.cams` that tests look at by themselves."""
 
-from optlaws.cams import best_laws
 from optlaws.cams.as_manufactured import ArcChain, Following, PolarSpline, run_against, spline_through
 from optlaws.cams.best_laws import linear_limits
 from optlaws.cams.curves import cam_files

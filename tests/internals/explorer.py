@@ -1,6 +1,6 @@
 """Internals of `optlaws.explorer` that tests look at by themselves."""
 
-from optlaws.explorer import answering, downloads, workers
+from optlaws.explorer import downloads
 from optlaws.explorer.answering import EXAMPLES, QUESTIONS
 from optlaws.explorer.application import MOST_BYTES, page
 from optlaws.explorer.downloads import FileRequest
@@ -8,7 +8,6 @@ from optlaws.explorer.server import ADDRESS, opened, server
 from optlaws.explorer.start import OpenRequest, start
 from optlaws.explorer.start import opened as opened_file
 from optlaws.explorer.views import (
-    advice_view,
     axes_view,
     cam_view,
     cycle_view,
@@ -17,9 +16,7 @@ from optlaws.explorer.views import (
     law_view,
     machine_view,
     old_cam_view,
-    requests,
 )
 from optlaws.explorer.views.cycle_view import CycleRequest, example
-from optlaws.explorer.views.law_view import answer
-from optlaws.explorer.views.panel_data import drawn, fact_sentences, panel_data, table_data
+from optlaws.explorer.views.panel_data import fact_sentences, panel_data, table_data
 from optlaws.explorer.views.requests import LawRequest, LawsRequest, given_law, law_of, problem_of, solved

@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
+import optlaws
 from optlaws import (
     Body,
-    Chebyshev,
     Cycle,
     DiscCam,
     Drive,
@@ -23,7 +23,6 @@ from optlaws import (
     Mechanism,
     Motor,
     OptlawsError,
-    Problem,
     Return,
     Rise,
     Status,
@@ -31,12 +30,7 @@ from optlaws import (
     belt,
     cam_mechanism,
     four_bar,
-    rack,
-    rms,
-    screw,
     slider_crank,
-    synthesize,
-    toggle,
 )
 from tests.internals.cli import exit_code
 from tests.internals.files import reading
@@ -44,7 +38,6 @@ from tests.internals.jobs import cycle_sweeps, read_given, sweeps_of
 from tests.internals.jobs import read_of_cycle_entries as read
 from tests.internals.mechanisms import MechanismKind
 
-LENGTHS = {"crank": "60 mm", "rod": "250 mm", "upper": "200 mm", "lower": "200 mm", "frame": "280 mm"}
 FORCE = [["0.3 m", "0 N"], ["0.31 m", "-400 N"], ["0.5 m", "-400 N"]]
 CAM = {
     "prime_radius": "60 mm",
@@ -82,7 +75,16 @@ def roller_cam() -> DiscCam:
     return DiscCam(motion, "60 mm", TranslatingRoller("12 mm"))
 
 
-#: the tables of files with what the functions make of the same
+RAM = cam_mechanism(roller_cam(), "2 kg", loads=Loads("-60 N", stiffness="3 N/mm"))
+ROCKER = four_bar(
+    "0.1 m",
+    "0.3 m",
+    "0.25 m",
+    "0.35 m",
+    bodies={"rocker": "0.05 kg m^2", "coupler": Body("1 kg", centre=("0.1 m", "50 mm"))},
+    branch="crossed",
+)
+#: tables of files that hold tables, with what the functions make of the same
 KINDS: dict[str, tuple[Mapping[str, Any], Mechanism]] = {
     "slider crank": (
         CRANK,
@@ -94,38 +96,7 @@ KINDS: dict[str, tuple[Mapping[str, Any], Mechanism]] = {
             over=("0 deg", "180 deg"),
         ).with_friction(coulomb="0.5 N m"),
     ),
-    "four bar": (
-        {
-            "crank": "0.1 m",
-            "coupler": "0.3 m",
-            "rocker": "0.25 m",
-            "frame": "0.35 m",
-            "bodies": {"rocker": "0.05 kg m^2", "coupler": {"mass": "1 kg", "centre": ["0.1 m", "50 mm"]}},
-            "branch": "crossed",
-        },
-        four_bar(
-            "0.1 m",
-            "0.3 m",
-            "0.25 m",
-            "0.35 m",
-            bodies={"rocker": "0.05 kg m^2", "coupler": Body("1 kg", centre=("0.1 m", "50 mm"))},
-            branch="crossed",
-        ),
-    ),
-    "toggle": (
-        {"lengths": LENGTHS, "bodies": {"ram": "40 kg"}, "loads": {"force": "-20 kN"}},
-        toggle(LENGTHS, bodies={"ram": "40 kg"}, loads=Loads("-20 kN")),
-    ),
-    "rack": ({"radius": "20 mm", "mass": "12 kg"}, rack("20 mm", "12 kg")),
-    "belt": (
-        {"radius": "30 mm", "mass": "8 kg", "loads": {"gravity": "180 deg"}},
-        belt("30 mm", "8 kg", loads=Loads(gravity="180 deg")),
-    ),
-    "screw": (
-        {"lead": "10 mm", "mass": "80 kg", "inertia": "3e-4 kg m^2"},
-        screw("10 mm", "80 kg", inertia="3e-4 kg m^2"),
-    ),
-    "cam": (CAM, cam_mechanism(roller_cam(), "2 kg", loads=Loads("-60 N", stiffness="3 N/mm"))),
+    "cam": (CAM, RAM),
     "table": ({**TABLE, "viscous": "0.1 N m s/rad"}, Mechanism(TABLE["inertia"], viscous="0.1 N m s/rad")),
 }
 
@@ -187,9 +158,7 @@ def test_every_entry_of_a_drive_that_forms_offer_is_one_of_files(entry: dict[str
     assert again["input"].drive == changed
 
 
-@pytest.mark.parametrize(
-    "drive", [KINDS["cam"][1], KINDS["four bar"][1], driven(CRANK, DRIVE)], ids=["cam", "linkage", "motor"]
-)
+@pytest.mark.parametrize("drive", [RAM, ROCKER, driven(CRANK, DRIVE)], ids=["cam", "linkage", "motor"])
 def test_a_file_that_is_written_is_read_again(drive: Mechanism | Drive, tmp_path: Path) -> None:
     cycle = Cycle(
         [Rise("45 deg", "0.2 s"), Dwell("0.1 s"), Return()], period="0.5 s", drive=drive, minimise="rms torque"
@@ -244,13 +213,7 @@ def test_damage_is_refused_by_name_or_leaves_something_whole(value: object) -> N
 SHORT_TABLE = {"kind": "table", "inertia": "0.1 kg m^2", "load": [["0 deg", "1 N m"], ["30 deg", "4 N m"]]}
 WRONG: dict[str, tuple[dict[str, Any], dict[str, Any] | None, str]] = {
     "no kind": ({"crank": "0.1 m"}, None, "mechanism: a mechanism needs its kind: give one of belt, cam, four bar"),
-    "kind": (
-        {**CRANK, "kind": "slider cranc"},
-        None,
-        "mechanism: unknown kind of a mechanism 'slider cranc'; did you mean 'slider crank'",
-    ),
     "length": ({"kind": "toggle", "rod": "0.3 m"}, None, "give it in the table lengths = { rod = ... }"),
-    "missing": ({"kind": "belt", "radius": "3 cm"}, None, "mechanism: a belt needs its mass, such as mass = '8 kg'"),
     "body": (
         {**CRANK, "bodies": {"slidr": "5 kg"}},
         None,
@@ -260,11 +223,6 @@ WRONG: dict[str, tuple[dict[str, Any], dict[str, Any] | None, str]] = {
         {**CRANK, "bodies": {"rod": {"mas": "5 kg"}}},
         None,
         "mechanism: bodies: rod: unknown entry of a body 'mas'; did you mean 'mass'",
-    ),
-    "load": (
-        {**CRANK, "loads": {"forces": "5 N"}},
-        None,
-        "mechanism: loads: unknown entry of loads 'forces'; did you mean 'force'",
     ),
     "negative inertia": (
         {**CRANK, "bodies": {"crank": "-0.02 kg m^2"}},
@@ -293,11 +251,6 @@ WRONG: dict[str, tuple[dict[str, Any], dict[str, Any] | None, str]] = {
         "segment 1: duration over a turn of the cam must be an angle",
     ),
     "constants beside": (CRANK, {"mass": "3 kg"}, "drive: beside a mechanism it has a motor"),
-    "motor key": (
-        CRANK,
-        {**DRIVE, "motor": {"inertia": "3e-4 kg m^2", "peak_torqe": "3 N m"}},
-        "drive: motor: unknown entry of a motor 'peak_torqe'; did you mean 'peak_torque'",
-    ),
     "no catalogue": (CRANK, {"motor": "small"}, "drive: motor: 'small' is one of a catalogue: give its file"),
 }
 
@@ -528,47 +481,15 @@ def test_a_wrong_sweep_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert re.search(f"swept.toml.*{text}", capsys.readouterr().err)
 
 
-def test_a_motor_that_is_too_weak_is_infeasible(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """No law of the table's moves takes less than the least RMS torque, which the error says."""
-    text = TURNTABLE.replace('law = "modified sine"\n', "").replace("efficiency = 0.85\n", "")
-    file = tmp_path / "weak.toml"
-    file.write_text(text.replace("[axis.drive]", 'limits = { "rms torque" = "1 N m" }\n[axis.drive]'), "utf-8")
-    assert exit_code(["cycle", str(file), "--json"]) == 3
-    assert re.search("infeasible: .*the RMS torque over the cycle is to be at most 1.*no law", capsys.readouterr().err)
-
-
-def test_a_stroke_of_a_mechanism_has_laws_of_least_torque() -> None:
-    """The least RMS torque of this crank is 3.989601 N m at degree 9, another optimiser's."""
-    crank = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": 5})
-    moved = crank.dimensionless("0 deg", "180 deg", "0.3 s")
-    least = synthesize(Problem(order=3, basis=Chebyshev(9), symmetric=False, minimise=rms(moved.torque)))
-    assert moved.unit * least.objective == pytest.approx(3.989601, rel=1e-6)
-
-
-@pytest.mark.sample(2)
-@pytest.mark.parametrize("scale", [1e-12, 1e9])
-def test_machines_of_other_sizes_need_as_much_in_proportion(scale: float) -> None:
-    """Inertias times a factor: torques, powers and energies times it, shares and speeds as they are."""
-    drive = {
-        "motor": {"inertia": f"{3e-4 * scale!r} kg m^2", "peak_torque": f"{6.0 * scale!r} N m"},
-        "ratio": 20,
-        "efficiency": 0.85,
-    }
-    cycle = read(entries({"kind": "table", "inertia": f"{0.8 * scale!r} kg m^2"}, drive), Path("scaled.toml"))[1][
-        "input"
-    ]
-    plain = {"motor": {"inertia": "3e-4 kg m^2", "peak_torque": "6 N m"}, "ratio": 20, "efficiency": 0.85}
-    usual = read(entries({"kind": "table", "inertia": "0.8 kg m^2"}, plain), Path("usual.toml"))[1]["input"]
-    assert cycle.objective == pytest.approx(scale * usual.objective, rel=1e-6)
-    assert cycle.effort.peak_force == pytest.approx(scale * usual.effort.peak_force, rel=1e-4)
-
-
 @pytest.mark.parametrize("kind", MechanismKind.kinds().values(), ids=lambda kind: kind.kind)
 def test_a_kind_with_the_examples_of_its_entries_is_written_and_read_again(kind: type[MechanismKind]) -> None:
     """The examples that errors, forms and references show are values; the friction of all kinds is in the mechanism."""
     shown = kind.form()["entries"]
     needed = {each["name"]: each["example"] for each in shown if each["needed"]}
     value = kind.from_dict({"kind": kind.kind, **needed, "coulomb": "0.2 N m"})
+    if kind.kind not in {"cam", "table"}:  # which are made of values
+        made = getattr(optlaws, kind.kind.replace(" ", "_"))(**needed)
+        assert made.with_friction(coulomb="0.2 N m") == value.mechanism
     assert kind.from_dict(json.loads(json.dumps(value.to_dict()))).mechanism == value.mechanism
     assert value.mechanism.coulomb == 0.2
     for each in shown:
@@ -592,7 +513,7 @@ def test_no_entry_takes_a_value_of_another_type(kind: type[MechanismKind] | type
     """Errors name the entry, or the entry of its table, and none of Python's comes through."""
     shown = kind.form()["entries"]
     needed = {each["name"]: each["example"] for each in shown if each["needed"]}
-    beside = {"kind": kind.kind} if issubclass(kind, MechanismKind) else {"mechanism": KINDS["rack"][1]}
+    beside = {"kind": kind.kind} if issubclass(kind, MechanismKind) else {"mechanism": RAM}
     for each in shown:
         data = {**({} if kind is Motor else beside), **needed, each["name"]: value}
         with pytest.raises(InputError, match=each["name"]):
