@@ -399,6 +399,30 @@ def test_the_least_power_by_boxes_is_proven_there_too(tmp_path: Path, B: float, 
     _by_boxes(Problem(B=B, order=3, basis=Chebyshev(degree), minimise="D"), tmp_path)
 
 
+WITHIN = Problem(
+    order=2,
+    basis=Chebyshev(1),
+    symmetric=False,
+    windows=(Window("0.2*b + c", high=5.9), Window("c + (1 + b^2)^1.5/9 + 0.02*cos(b)/(1 + a)", low=-4.2)),
+)
+
+
+def test_windows_of_formulas_are_proven_there_too(tmp_path: Path) -> None:
+    solution = synthesize(WITHIN, bound="tight").to_dict()
+    assert solution["power_certificate"]
+    assert synthesize(replace(WITHIN, windows=())).objective < 0.99 * solution["objective"]
+    assert verify(solution).proven
+    assert verdicts(checked(solution, tmp_path)) == {"proven"}
+    raised = changed(solution["power_certificate"], ("claim",), solution["objective"] * (1.0 + 1e-6))
+    first, second = (json.loads(json.dumps(solution["problem"])) for _ in range(2))
+    first["windows"][1]["low"] += 1e-6
+    second["windows"][1]["low"] -= 0.1
+    tighter, wider = solution | {"problem": first}, solution["power_certificate"] | {"problem": second}
+    raised_claims, tighter_claims, wider_claims = checked_each([raised, tighter, wider], tmp_path)
+    assert verdicts(raised_claims) == verdicts(wider_claims) == {"not proven"}
+    assert any(path.endswith("window 2") for path in false(tighter_claims))
+
+
 @pytest.mark.long
 @pytest.mark.parametrize(("B", "degree", "minimise"), [(1.641, 9, "D"), (None, 5, "0.6*C/4 + 0.4*D/2.25")])
 def test_proofs_of_many_boxes_and_of_mixtures_are_proven_there_too(

@@ -1,46 +1,13 @@
-/* Trees over boxes of velocities and constants, for problems with the power D, with every rounding outward. */
+/* Trees over boxes of velocities and constants, for problems with the power D or windows of formulas. */
 
 import { ONE, Rational, TWO, Unknown, ZERO, exact, greatest, least, quotientRounded, whole } from "./proof_numbers.mjs";
-import { Rows, rangeOf } from "./proof_rows.mjs";
-import { POLYNOMIALS, endVelocities } from "./proof_laws.mjs";
+import { BITS, NOTHING, added, interval, inverse, negative, product, ratio, signedRoot } from "./proof_intervals.mjs";
+import { namesIn, planeBelow } from "./proof_formulas.mjs";
+import { ORDERS, Rows, rangeOf } from "./proof_rows.mjs";
+import { POLYNOMIALS, endVelocities, stroke } from "./proof_laws.mjs";
 
-const BITS = 192;
-const NOTHING = [ZERO, ZERO];
-
-/* Intervals are pairs of numbers of few bits, rounded outward. */
-function interval(low, high = low) {
-  return [low.rounded(-1, BITS), high.rounded(1, BITS)];
-}
-
-function added(first, second) {
-  return interval(first[0].plus(second[0]), first[1].plus(second[1]));
-}
-
-function product(first, second) {
-  const ends = first.flatMap((x) => second.map((y) => x.times(y)));
-  return interval(ends.reduce(least), ends.reduce(greatest));
-}
-
-function negative([low, high]) {
-  return [high.negative(), low.negative()];
-}
-
-function ratio(first, second) {
-  return [quotientRounded(first, second, -1, BITS), quotientRounded(first, second, 1, BITS)];
-}
-
-/* 1 over an interval above 0. */
-function inverse([low, high]) {
-  return [quotientRounded(ONE, high, -1, BITS), quotientRounded(ONE, low, 1, BITS)];
-}
-
-/* The root of a number with its sign, rounded to a side. */
-function signedRoot(square, side) {
-  const away = square.magnitude().rootAbove();
-  const towards = away.sign ? quotientRounded(square.magnitude().rounded(-1, 2 * BITS), away, -1, BITS) : ZERO;
-  const root = (square.sign >= 0) === side > 0 ? away : towards;
-  return (square.sign < 0 ? root.negative() : root).rounded(side, BITS);
-}
+/* The peak of a derivative that is in a formula. */
+const MOST = { b: "B", c: "C", j: "J" };
 
 class Boxes {
   constructor(certificate) {
@@ -66,9 +33,14 @@ class Boxes {
       const range = rangeOf(problem, name);
       if (range?.high) lower(name, range.high);
     }
-    if (!this.most.has("D")) throw new Unknown("boxes without a bound of D");
-    const fastest = this.ends.map((end) => end.magnitude()).reduce(greatest);
-    lower("B", signedRoot(fastest.times(fastest).plus(this.most.get("D")), 1));
+    if (this.most.has("D")) {
+      const fastest = this.ends.map((end) => end.magnitude()).reduce(greatest);
+      lower("B", signedRoot(fastest.times(fastest).plus(this.most.get("D")), 1));
+    } else {
+      if (problem.start || problem.end) throw new Unknown("boxes of laws that are not from rest to rest");
+      for (const name of ["C", "rms_c", "J", "rms_j"]) if (this.most.has(name)) lower("B", stroke(problem).magnitude().plus(this.most.get(name)));
+      if (!this.most.has("B")) throw new Unknown("boxes without a bound of the velocity");
+    }
     this.anchors = [[ZERO, this.ends[0], this.ends[0]], [ONE, this.ends[1], this.ends[1]]];
     const { velocity, peak } = this.rows;
     if (velocity && velocity.low.sign > 0 && peak) this.anchors.push([peak, velocity.low, this.most.get("B")]);
@@ -104,9 +76,16 @@ class Boxes {
     return { low: sides.map(([low]) => low.rounded(-1, BITS)), high: sides.map(([, high]) => high.rounded(1, BITS)) };
   }
 
-  /* Between what values b(k) is: b |b| changes no faster than 2 D. */
+  /* Between what values b(k) is: b |b| changes no faster than 2 D, b from its ends no faster than C. */
   outer(k, anchors) {
     let [low, high] = [this.most.get("B").negative(), this.most.get("B")];
+    if (!this.most.has("D")) {
+      for (const [at, slowest, fastest] of this.most.has("C") ? anchors : []) {
+        const change = this.most.get("C").times(k.minus(at).magnitude());
+        [low, high] = [greatest(low, slowest.minus(change)), least(high, fastest.plus(change))];
+      }
+      return [this.problem.monotone ? greatest(low, ZERO) : low, high];
+    }
     for (const [at, slowest, fastest] of anchors) {
       const change = this.most.get("D").times(TWO).times(k.minus(at).magnitude());
       low = greatest(low, signedRoot(slowest.times(slowest.magnitude()).minus(change), -1));
@@ -143,6 +122,7 @@ class Boxes {
 
   row(contact, box) {
     if (contact.constraint.startsWith("power")) return this.power(contact, box);
+    if (contact.constraint.startsWith("plane ")) return this.plane(contact, box);
     const row = this.rows.row(contact);
     return row && this.mapped(row);
   }
@@ -162,6 +142,33 @@ class Boxes {
   derivative(nu, k) {
     const values = this.rows.laws.values(nu, k);
     return this.mapped({ z: values.slice(0, -1), names: {}, constant: values.at(-1) });
+  }
+
+  /* The plane that is nowhere above the formula of a window while the law is in the box. */
+  plane(contact, box) {
+    const [, number, name] = /^plane (\d+) of (window .*)$/.exec(contact.constraint) ?? [];
+    const side = name && this.rows.formulaSide(name, contact.sign);
+    if (!side) throw new Unknown(`rows ${contact.constraint}`);
+    const k = exact(contact.k);
+    if (k.below(side.start) || side.stop.below(k)) return null;
+    const names = namesIn(side.formula);
+    const rows = names.map((each) => this.derivative(ORDERS[each], k));
+    const ranges = names.map((each, i) => {
+      const inBox = [leastIn(box, rows[i]), leastIn(box, rows[i].map(negative)).negative()];
+      const most = this.most.get(MOST[each]);
+      const known = each === "b" ? this.outer(k, this.anchors) : most ? [most.negative(), most] : inBox;
+      return interval(greatest(inBox[0], known[0]), least(inBox[1], known[1]));
+    });
+    if (ranges.some(([low, high]) => high.below(low))) return null;
+    const corner = Number(number) - 1;
+    const touch = ranges.map(([low, high], i) => {
+      if (corner < 0) return low.plus(high).over(TWO).rounded(-1, BITS);
+      return (corner >> (names.length - 1 - i)) & 1 ? high : low;
+    });
+    const { slopes, height } = planeBelow(side.formula, names, ranges, touch);
+    const row = rows[0].map((_, column) => rows.map((own, i) => product(slopes[i], own[column])).reduce(added));
+    row[row.length - 1] = added(row.at(-1), [height[0].minus(side.high), height[0].minus(side.high)]);
+    return row;
   }
 
   /* s c <= D / |b| by the chord of 1 / |b| and of its product with D; null where b may be 0 in the box. */

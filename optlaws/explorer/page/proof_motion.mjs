@@ -3,10 +3,16 @@
 import { ONE, Rational, TWO, Unknown, ZERO, exact, greatest, least, sum, whole } from "./proof_numbers.mjs";
 import { derivative, inPlace, multiplied, valueAt } from "./proof_laws.mjs";
 import { above, below } from "./proof_balls.mjs";
+import { along, formulaOf, namesIn, opposed } from "./proof_formulas.mjs";
+import { interval } from "./proof_intervals.mjs";
 import { machineConstant, machineName, outputOf } from "./proof_machines.mjs";
 import { MEANS, ORDERS, PEAKS, rangeOf } from "./proof_rows.mjs";
 
 const BITS = 256;
+const BITS_OF_CELL = 192;
+/* Of its bound a formula may be above it by so much, and so many cells may show that it is no more. */
+const KEPT = exact(1e-9);
+const FORMULA_CELLS = 4000;
 /* By how much of itself a peak may be above the value where it is said to be. */
 const PLACE = exact(1e-7);
 /* Peaks are enclosed to this share of themselves. */
@@ -186,8 +192,12 @@ export function conditionsOf(motion, problem) {
 }
 
 function beyondWindow(motion, { quantity, low = null, high = null, start = 0, stop = 1 }, beyond) {
-  if (!(quantity in ORDERS)) throw new Unknown("windows of a formula");
   const [first, last] = [exact(start), exact(stop)];
+  if (!(quantity in ORDERS)) {
+    const formula = formulaOf(quantity);
+    const above = high === null ? [] : [formulaBeyond(motion, formula, exact(high), [first, last], beyond)];
+    return [...above, ...(low === null ? [] : [formulaBeyond(motion, opposed(formula), exact(low).negative(), [first, last], beyond)])].reduce(greatest);
+  }
   const parts = motion.filter((piece) => !last.below(piece.start) && !piece.stop.below(first)).map((piece) => {
     const from = greatest(piece.start, first).minus(piece.start).over(piece.length);
     const to = least(piece.stop, last).minus(piece.start).over(piece.length);
@@ -197,6 +207,52 @@ function beyondWindow(motion, { quantity, low = null, high = null, start = 0, st
   if (high !== null) sides.push(beyond(extreme(parts, [1])[1], exact(high)));
   if (low !== null) sides.push(beyond(extreme(parts, [-1])[1], exact(low).negative()));
   return sides.reduce(greatest, ONE.negative());
+}
+
+/* By how much of its bound a formula of a law is above it at most, where that is little. */
+function formulaBeyond(motion, formula, high, [first, last], beyond) {
+  const names = namesIn(formula);
+  let most = ONE.negative();
+  let left = FORMULA_CELLS;
+  for (const piece of motion) {
+    const from = greatest(piece.start, first).minus(piece.start).over(piece.length).rounded(-1, BITS);
+    const to = least(piece.stop, last).minus(piece.start).over(piece.length).rounded(1, BITS);
+    const waiting = to.below(from) ? [] : [[from, to]];
+    while (waiting.length) {
+      const [low, top] = waiting.pop();
+      left -= 1;
+      if (left < 0) throw new Unknown("so fine a place of a formula");
+      const { reached, within } = greatestIn(piece, formula, names, [low, top]);
+      const by = beyond(within, high);
+      if (KEPT.below(beyond(reached, high))) return by;
+      if (!KEPT.below(by)) {
+        most = greatest(most, by);
+        continue;
+      }
+      const middle = low.plus(top).over(TWO);
+      waiting.push([low, middle], [middle, top]);
+    }
+  }
+  return most;
+}
+
+/* What a formula reaches in the middle of a cell, and is within: by Taylor's formula about it where that is less. */
+function greatestIn(piece, formula, names, [low, high]) {
+  const middle = low.plus(high).over(TWO);
+  const reach = high.minus(low).over(TWO);
+  const ofLaw = (cell) => Object.fromEntries(names.map((name) => [name, [0, 1, 2].map((more) => cell(ORDERS[name] + more))]));
+  const scaled = (nu) => inPlace(of(piece, nu), low, high.minus(low));
+  const over = ofLaw((nu) => hull(bernstein(scaled(nu))));
+  const there = ofLaw((nu) => interval(valueAt(of(piece, nu), middle)));
+  const [value, , bend] = along(formula, over);
+  const [centre, slope] = along(formula, there);
+  const steep = greatest(slope[0].magnitude(), slope[1].magnitude()).times(piece.length).times(reach);
+  const round = greatest(bend[1], ZERO).times(piece.length.times(reach).power(2)).over(TWO);
+  return { reached: centre[0], within: least(value[1], centre[1].plus(steep).plus(round)).rounded(1, BITS_OF_CELL) };
+}
+
+function hull(values) {
+  return interval(values.reduce(least), values.reduce(greatest));
 }
 
 /* By how much a(k) + a(1 - k) is off what both ends give. */

@@ -3,6 +3,7 @@
 import { HALF, ONE, TWO, Unknown, ZERO, exact, greatest, solved, sum, whole } from "./proof_numbers.mjs";
 import { POLYNOMIALS, endVelocities, inPlace, lawsOf, legendreMoment } from "./proof_laws.mjs";
 import { ball, middle, plus, times } from "./proof_balls.mjs";
+import { affineIn, formulaOf, opposed } from "./proof_formulas.mjs";
 import { Mode, Outputs, machineConstant, machineName } from "./proof_machines.mjs";
 
 const PEAKS = {
@@ -107,7 +108,8 @@ export class Rows {
     const others = Object.keys(problem.bounds ?? {}).filter((name) => !(name in PEAKS) && !(name in MEANS) && name !== "D");
     this.machines = new Map();
     for (const name of [...others, ...leavesOf(this.objective).filter((leaf) => leaf.includes("("))]) this.#addMachine(name);
-    if (problem.windows?.some((window) => !(window.quantity in ORDERS))) throw new Unknown("windows of a formula");
+    const formulas = (problem.windows ?? []).filter((window) => !(window.quantity in ORDERS));
+    if (formulas.some(({ low, high, start, stop }) => low === high && start === stop)) throw new Unknown("values of a formula");
     this.velocity = rangeOf(problem, "B");
     const rest = !problem.start && !problem.end;
     const inTheMiddle = rest && fixed(this.velocity) && ONE.below(this.velocity.high);
@@ -285,6 +287,7 @@ export class Rows {
   #window(name, sign, k) {
     const [, number, mirrored, side] = /^window (\d+)( mirrored)?, (above|below)$/.exec(name) ?? [];
     const window = this.problem.windows?.[Number(number) - 1];
+    if (window && !(window.quantity in ORDERS)) return this.#affine(name, sign, k);
     const part = window && this.#parts(window)[mirrored ? 1 : 0];
     if (!part || (side === "above") !== (sign > 0) || part.value) return null;
     const bound = sign > 0 ? part.high : part.low;
@@ -294,6 +297,33 @@ export class Rows {
     const place = k.below(part.start) ? part.start : last.below(k) ? last : k;
     const s = whole(sign);
     return this.#row(this.laws.values(part.nu, place), s, {}, s.times(bound));
+  }
+
+  /* The side of a window of a formula that a row is of: the formula is at most `high` from start to stop. */
+  formulaSide(name, sign) {
+    const [, number, side] = /^window (\d+), (above|below)$/.exec(name) ?? [];
+    const window = this.problem.windows?.[Number(number) - 1];
+    if (!window || this.problem.symmetric || (side === "above") !== (sign > 0)) return null;
+    const bound = side === "above" ? window.high : window.low;
+    if (bound === null || bound === undefined) return null;
+    const formula = formulaOf(window.quantity);
+    const ends = { start: exact(window.start ?? 0), stop: exact(window.stop ?? 1) };
+    return sign > 0 ? { formula, high: exact(bound), ...ends } : { formula: opposed(formula), high: exact(bound).negative(), ...ends };
+  }
+
+  /* The row of a window of a formula that is affine in the law. */
+  #affine(name, sign, k) {
+    const side = this.formulaSide(name, sign);
+    const form = side && affineIn(side.formula);
+    if (!form) throw new Unknown(`rows ${name}`);
+    if (k.plus(NEAR).below(side.start) || side.stop.plus(NEAR).below(k)) return null;
+    const place = k.below(side.start) ? side.start : side.stop.below(k) ? side.stop : k;
+    const total = Array(this.laws.terms + 1).fill(ZERO);
+    for (const [each, factor] of Object.entries(form.factors)) {
+      const values = this.laws.values(ORDERS[each], place);
+      values.forEach((value, i) => { total[i] = total[i].plus(factor.times(value)); });
+    }
+    return this.#row(total, ONE, {}, side.high.minus(form.rest));
   }
 
   /* A window and, of symmetric laws, what the mirror image of its second half says of the first. */
@@ -376,7 +406,7 @@ export class Rows {
       if (!problem.symmetric) rows.push(this.#row(laws.values(2, peak)));
     }
     for (const { nu, k, value } of laws.conditions) rows.push(this.#row(laws.values(nu, k), ONE, {}, value));
-    for (const window of problem.windows ?? []) {
+    for (const window of (problem.windows ?? []).filter(({ quantity }) => quantity in ORDERS)) {
       for (const part of this.#parts(window)) {
         if (part.value) rows.push(this.#row(laws.values(part.nu, part.start), ONE, {}, part.high));
       }
