@@ -4,6 +4,8 @@ At the optimum a few contacts carry the whole program: points where a constraint
 residual. Unknown are the variables x, the free positions u and the multipliers. The system is square, so convergence
 is quadratic, and fewer contacts than variables are no difficulty (the curvature of the contacts closes it).
 
+Near the optimum contacts that meet are one, and those that came to an end stay there; the last steps begin so.
+
 Of an integral with kinks the places of these are unknowns too, each a root of the formula that changes its sign there:
 as a function of the law alone the integral bends without bound where two kinks are about to vanish, as a function of
 both it is smooth there.
@@ -21,9 +23,11 @@ from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.families.kinked import AtKinks, FreeKinks, KinkedIntegralFamily, SmoothStretch
-from optlaws.tolerances import DEPENDENT_ROWS, SAME_PLACE
+from optlaws.tolerances import AT_END, DEPENDENT_ROWS, SAME_PLACE
 
 _NEWTON_CONVERGED = 1e-13  # of a law: a step of Newton's method that is the last
+_NEWTON_NEAR = 1e-7  # of a law: after a step that changes less contacts that meet are merged
+_NEWTON_SAME = 1e-5  # of a law: nearer than this a state and what it is led to with merged contacts are one optimum
 _NEWTON_STALLED = 1e-10  # of a law: steps below it that shrink no more are rounding
 _NEWTON_FULFILLED = 1e-9  # of a right side: by so much the equations of Newton's method may be missed
 _NEWTON_STILL = 1e-6  # of a law: a step that is longer wanders
@@ -81,7 +85,12 @@ def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> Ac
         once = None if optimum is None else optimum.merged(SAME_PLACE)
         return optimum if once is None or once is optimum else newton(program, once) or optimum
     integrals = _integrals(program, start)
-    optimum, moved = _iterated(program, start, integrals)
+    near, integrals = _iterated(program, start, integrals, enough=_NEWTON_NEAR)
+    if near is None:
+        return None
+    optimum, moved = _iterated(program, _merged(program, near), integrals)
+    if optimum is None or np.abs(near.x - optimum.x).max() > _NEWTON_SAME * max(1.0, np.abs(near.x).max()):
+        optimum, moved = _iterated(program, near, integrals)
     return optimum if optimum is not None and _have_all_kinks(optimum.x, moved) else None
 
 
@@ -107,9 +116,10 @@ def _iterated(
     start: ActiveSet,
     integrals: _Integrals,
     *,
+    enough: float = 0.0,
     deficient: bool = False,
 ) -> tuple[ActiveSet | None, _Integrals]:
-    """The fixed point of Newton's method, and its kinks."""
+    """The end of Newton's method, its fixed point or a state after which a step changes less than needed; the kinks."""
     state = start
     previous = np.inf
     for _ in range(_STEPS_WITH_KINKS if integrals else _STEPS):
@@ -121,6 +131,8 @@ def _iterated(
         before, state = state, _moved(state, share * step)
         scale = max(1.0, float(np.abs(state.x).max()))
         steps, defects = np.abs(step), np.abs(defect)
+        if float(steps.max()) < enough * scale:
+            return state, integrals
         size = float(steps[: program.size].max()) / scale
         # x may stand still where the conditions do not hold: in a deficient system, or where the optimum is flat
         off = max(float(defects[: program.size].max()), float(defects[program.size :].max(initial=0.0)) / scale)
@@ -147,6 +159,16 @@ def _with_moved_kinks(integrals: _Integrals, step: Array) -> tuple[float, _Integ
     return share, {
         i: integral.moved(share * part) for (i, integral), part in zip(integrals.items(), parts, strict=False)
     }
+
+
+def _merged(program: Program, state: ActiveSet) -> ActiveSet:
+    """The state with contacts that meet as one; a contact that may move, but came to an end, stays there."""
+    state = state.merged(SAME_PLACE)
+    u, free = state.u, state.free
+    for end in np.array([program.families[i].domain for i in state.family]).reshape(-1, 2).T:
+        at_end = free & (np.abs(u - end) < AT_END)
+        u, free = np.where(at_end, end, u), free & ~at_end
+    return replace(state, u=u, free=free)
 
 
 def _conditions(program: Program, state: ActiveSet, integrals: _Integrals) -> tuple[Array, Array]:
