@@ -116,9 +116,10 @@ def test_a_table_at_constant_velocity_is_refused_and_leaves_nothing(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """A quarter sine up and a line down: the moves that have laws of their own are not saved for a cycle that jumps."""
-    u = np.arange(361.0) % 180.0 / 2.0
+    turn = np.arange(0.0, 361.0, 2.0)
+    u = turn % 180.0 / 2.0
     lift = np.where(u <= 60.0, 3.05 * np.sin(np.pi / 2.0 * u / 60.0), np.where(u < 80.0, 3.05 * (80.0 - u) / 20.0, 0.0))
-    rows = [f"{i} {height!r}" for i, height in enumerate(lift.tolist())]
+    rows = [f"{at!r} {height!r}" for at, height in zip(turn.tolist(), lift.tolist(), strict=True)]
     (folder / "pump.txt").write_text("\n".join(rows), "utf-8")
     before = contents(folder)
     arguments = ["cycle", "pump.txt", "--speed", "200rpm", "--tolerance", "0.001", "--save", "pump.toml"]

@@ -371,7 +371,6 @@ def test_lengths_of_a_crank_and_ratios_are_a_study(tmp_path: Path) -> None:
     )
     table = study.to_pandas()
     means = table["objective"].to_numpy() * [each.unit for each in cranks]
-    assert means[1] == pytest.approx(3.989601, rel=1e-6)  # another optimiser's
     assert means[0] < means[1]
     assert (table["lower_bound"] <= table["objective"]).all()
     turning = Drive(Mechanism("0.8 kg m^2"), Motor("3e-4 kg m^2"))

@@ -49,6 +49,7 @@ def test_a_load_that_drives_has_a_bound_by_its_work() -> None:
     assert 0.999 * bound < drive.limit("peak torque", "0 deg", "360 deg", "0.8 s").value < bound
 
 
+@pytest.mark.long
 def test_a_flywheel_that_bears_a_force_has_a_proven_bound() -> None:
     """The knee's torque is five times as great as that of the motor; no certificate was found before."""
     force = {"0 deg": 0.0, "150 deg": 0.0, "175 deg": 1.5e3, "200 deg": 1.5e3, "215 deg": 0.0, "360 deg": 0.0}
