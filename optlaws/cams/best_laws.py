@@ -22,12 +22,12 @@ from optlaws.cams.least_sizes import CamLimits, LeastPrimeCircle, least_prime_ci
 from optlaws.cams.roller_curvature import RollerCurvature, curvature_of
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
-from optlaws.cycles.optimisation.optimal import span_problem
+from optlaws.cycles.optimisation.optimal import span_problem, with_places
 from optlaws.entries.declared import documented_by
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
-from optlaws.motion.quantities import TURN, Kind
+from optlaws.motion.quantities import TURN, TURN_DEG, Kind
 from optlaws.numbers import NumberOrQuantity
 from optlaws.sentences import joined, sentence
 from optlaws.synthesis.problem.constants import Functional
@@ -369,8 +369,8 @@ def _refuse_radius_of_no_law(cycle: Cycle, cam: DiscCam, radius: float | None) -
             why = "no path that bends so little goes so far out in so short a turn"
         if why:
             raise InfeasibleProblem(
-                f"no law from {piece.start:.6g} s on keeps the least radius of curvature: {why}: make the prime circle "
-                "larger, the least radius smaller, or the motion longer",
+                f"no law {_from(piece, cycle.duration)} keeps the least radius of curvature: {why}: make the prime "
+                "circle larger, the least radius smaller, or the motion longer",
                 problem=solution.problem,
             )
 
@@ -402,9 +402,13 @@ def _solved_with_curvature(problem: Problem, curvature: RollerCurvature) -> Solu
         return synthesize(replace(problem, windows=(*problem.windows, curvature.window())), bound="tight")
     except (InfeasibleProblem, SolverFailure):
         raise SolverFailure(
-            f"no law was found from {curvature.piece.start:.6g} s on that keeps the least radius of curvature, and "
-            f"under this follower its limit is not convex in the law: {_WIDER}"
+            f"no law was found {_from(curvature.piece, curvature.period)} that keeps the least radius of curvature, "
+            f"and under this follower its limit is not convex in the law: {_WIDER}"
         ) from None
+
+
+def _from(piece: Piece, period: float) -> str:
+    return f"from {piece.start:.6g} s ({TURN_DEG * piece.start / period:.6g} deg) on"
 
 
 def _best(
@@ -415,13 +419,13 @@ def _best(
     try:
         return synthesize(_problem(problem, windows, ()))
     except InfeasibleProblem as error:
-        where = f"from {guide.start:.6g} s on"
+        where = _from(guide, period)
         if below and not contact.linear:
             raise SolverFailure(f"no law was found {where} that keeps the limits of the cam: {_WIDER}") from None
         raise InfeasibleProblem(
             f"no law {where} keeps the limits of the cam with those of the motion: {_WIDER}",
             problem=error.problem,
-            tried=error.tried,
+            tried=with_places(error.tried, guide.start, guide.start + guide.duration, period),
             proof=error.proof,
         ) from None
 

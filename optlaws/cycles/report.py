@@ -57,7 +57,7 @@ _LOAD_UNITS = {
 _INPUTS = {"rack": "pinion", "belt": "pulley", "screw": "screw", "cam": "cam"}
 _INPUTS |= dict.fromkeys(("slider-crank", "four-bar", "toggle"), "crank")
 _WIDE_GAP = 0.05  # between the objective and its bound
-_RICHER = "laws of a higher degree may take less: give degree = 21"
+_RICHER = "laws of a higher degree may take less: give degree = 21 in [[axis]], or in [motion] of a cam"
 _BOTH_WAYS = 0.01  # of the work against a load: if more comes back, it acts on the way back too
 _EACH = 60  # samples of a piece, to which those are added that its curve needs
 

@@ -235,6 +235,9 @@ def test_what_has_no_best_law_says_the_remedy() -> None:
     given = Cycle([Rise("35 mm", "120 deg", law="cycloidal"), Return(law="cycloidal")], period="1 s")
     with pytest.raises(InputError, match="leave the law of a move out"):
         best_cam(given, "50 mm", TranslatingRoller("12 mm"), pressure_angle="30 deg")
+    with pytest.raises(InfeasibleProblem, match=r"no law from 0\.\S+ s \(210 deg\) on") as refused:
+        best_cam(replace(SHORT, limits={}), "20 mm", TranslatingRoller("12 mm"), pressure_angle="12 deg")
+    assert refused.value.tried.endswith("k = 0 is at 0.175 s (210 deg), k = 1 at 0.258333 s (310 deg)")
     with pytest.raises(InputError, match="pressure_angle='30 deg'"):
         best_cam(PRESS, "50 mm", TranslatingRoller("12 mm"))
     with pytest.raises(InputError, match=r"takes the limit radius_of_curvature='5 mm'"):

@@ -185,11 +185,14 @@ def test_what_binds_the_overlap_of_two_axes_is_their_interlocks(capsys: Capture)
     assert others == pytest.approx([first] * len(others), rel=1e-8)
     # a period that nobody gave is none to compare with
     compared = [
-        "speed, as a multiple of that before the overlap" in [row.name for row in overlap.summary()]
+        (
+            "speed, as a multiple of that before the overlap" in [row.name for row in overlap.summary()],
+            overlap.gain is None,
+        )
         for spec, given in (read_given(tomllib.loads(text), Path("c.toml")) for text in (limited, untimed))
         if (overlap := spec.overlap_of(given, Path("c.toml")))
     ]
-    assert compared == [True, False]
+    assert compared == [(True, False), (False, True)]
     unlimited = re.sub("(?m)^limits = .*\n", "", untimed)
     with pytest.raises(
         InputError, match=r"axis slide: segment 2 \(Rise\): nothing bounds its time: give it a duration"

@@ -286,7 +286,9 @@ def test_where_a_wide_gap_is_left_a_higher_degree_is_offered(calm: Cycle) -> Non
     usual = replace(calm, minimise="torque")
     assert usual.lower_bound is not None
     assert usual.lower_bound < 0.95 * usual.objective
-    assert degrees_offered(usual) == ["laws of a higher degree may take less: give degree = 21"]
+    assert degrees_offered(usual) == [
+        "laws of a higher degree may take less: give degree = 21 in [[axis]], or in [motion] of a cam"
+    ]
     assert degrees_offered(calm) == []  # a gap of 1.6 %
 
 

@@ -538,9 +538,14 @@ class Overlap(AxesAnswers, Declared, title="axes that overlap"):
         return max(1.0 - self.lower_bound / self.objective, 0.0)
 
     @property
-    def gain(self) -> float:
-        """The objective before over the objective after: the gain in speed, or the reduction of the acceleration."""
-        return (self.given.duration if self.goal == "period" else 1.0) / self.objective
+    def gain(self) -> float | None:
+        """The objective before over the objective after: the gain in speed, or the reduction of the acceleration.
+
+        None of a period where none was given.
+        """
+        if self.goal != "period":
+            return 1.0 / self.objective
+        return self.given.duration / self.objective if self.given.has_clock else None
 
     @property
     def dwells(self) -> tuple[str, ...]:
@@ -576,7 +581,7 @@ class Overlap(AxesAnswers, Declared, title="axes that overlap"):
         if self.goal == "period":
             what, unit, gain = "least period", "s", "speed, as a multiple of that before the overlap"
         values = {what: (self.objective, unit), "lower bound": (self.lower_bound, unit)}
-        if self.goal != "period" or self.given.has_clock:
+        if self.gain is not None:
             values[gain] = self.gain, ""
         laws = "for these laws, by linear programs in doubles"
         rows = [Row(name, *value, note=laws if name == "lower bound" else "") for name, value in values.items()]
@@ -662,7 +667,8 @@ class Overlap(AxesAnswers, Declared, title="axes that overlap"):
 
     def __repr__(self) -> str:
         what = f"period={self.objective:.6g} s" if self.goal == "period" else f"acceleration={self.objective:.6g}"
-        return f"Overlap({what}, {self.gain:.4g} times better, status={self.status.value!r}, bound by {self.binding})"
+        gain = "" if self.gain is None else f", {self.gain:.4g} times better"
+        return f"Overlap({what}{gain}, status={self.status.value!r}, bound by {self.binding})"
 
 
 def _overlapped(given: Axes, goal: Goal, longer: Sequence[str]) -> Overlap:

@@ -67,13 +67,15 @@ class OldTableReport:
             if not isfinite(new):
                 continue
             if isfinite(high) and new > _HARDER * high:
-                known, old = "at most", high
+                old = sentence("at most {}", Amount(high, unit, 3))
             elif high > HARDLY_KNOWN * low and 0.0 < _HARDER * low < new:
-                known, old = "above", low
+                ends = Amount(low, unit, 3), Amount(high, unit, 3)
+                old = sentence("between {} and {}", *ends) if isfinite(high) else sentence("above {}", ends[0])
             else:
                 continue
-            what, was = Amount(new, unit, 3), Amount(old, unit, 3)
-            yield sentence("the greatest {} of the new cycle is {}, that of the old one {} {}", name, what, known, was)
+            yield sentence(
+                "the greatest {} of the new cycle is {}, that of the old one {}", name, Amount(new, unit, 3), old
+            )
 
     @kept_property
     def tables(self) -> tuple[ReportTable, ...]:

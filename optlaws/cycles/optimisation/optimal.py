@@ -38,7 +38,7 @@ from optlaws.cycles.specification.limits import (
 from optlaws.cycles.specification.programme import LawSpan, State, is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece, factor
-from optlaws.motion.quantities import Kind, in_small_units
+from optlaws.motion.quantities import TURN_DEG, Kind, in_small_units
 from optlaws.numbers import MOST_PIECES
 from optlaws.sentences import Amount, sentence
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional, RootMeanSquare
@@ -374,6 +374,14 @@ def with_least_limit(error: InfeasibleProblem, span: LawSpan, objective: CycleOb
             proof=error.proof,
         )  # fmt: skip
     return error
+
+
+def with_places(tried: str, start: float, stop: float, period: float) -> str:
+    """What was tried of a motion from one time to another in seconds, saying where in a cycle its places k are."""
+    if "k = " not in tried:
+        return tried
+    ends = (sentence("{} ({})", Amount(time, "s"), Amount(TURN_DEG * time / period, "deg")) for time in (start, stop))
+    return str(sentence("{}; k = 0 is at {}, k = 1 at {}", tried, *ends))
 
 
 def with_share(problem: Problem, span: LawSpan, objective: CycleObjective, share: float) -> Problem:

@@ -23,6 +23,7 @@ from optlaws.cycles.optimisation.optimal import (
     solved,
     span_problem,
     with_least_limit,
+    with_places,
     with_share,
 )
 from optlaws.cycles.optimisation.span_values import (
@@ -187,7 +188,7 @@ def best_of(layout: Layout, objective: CycleObjective, period: float) -> Best:
     for span in layout.spans:
         refuse_too_weak(span, objective)
     if not objective.shares:
-        laws = tuple(_solved(span, objective) for span in layout.spans)
+        laws = tuple(_solved(span, objective, period) for span in layout.spans)
         chosen, remarks = ties_broken(layout, objective, laws, period)
         return Best(chosen, remarks, bound_of(layout, laws, objective, period) if remarks else None)
     if objective.drive is None:
@@ -197,11 +198,13 @@ def best_of(layout: Layout, objective: CycleObjective, period: float) -> Best:
     return _SharedLimit(layout, objective, period).best()
 
 
-def _solved(span: LawSpan, objective: CycleObjective) -> tuple[Piece, Solution]:
+def _solved(span: LawSpan, objective: CycleObjective, period: float) -> tuple[Piece, Solution]:
     try:
         return solve(span, objective)
     except InfeasibleProblem as error:
-        raise with_least_limit(error, span, objective) from None
+        wider = with_least_limit(error, span, objective)
+        wider.tried = with_places(wider.tried, span.starts[0], span.stop, period)
+        raise wider from None
 
 
 @dataclass(frozen=True)
