@@ -217,7 +217,7 @@ def test_everything_raised_on_purpose_is_one_tree() -> None:
     errors = [one for one in found if one not in warnings]
     known = {"CallError", "InfeasibleProblem", "InputError", "OptlawsError", "SolverFailure"}
     assert {error.__name__ for error in errors} == known
-    assert all(issubclass(error, optlaws.OptlawsError) for error in errors)
+    assert all(issubclass(error, optlaws.OptlawsError) and ">>>" in (error.__doc__ or "") for error in errors)
 
 
 def test_an_unknown_attribute_is_refused() -> None:

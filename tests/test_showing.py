@@ -2,6 +2,8 @@
 
 import re
 import sys
+from dataclasses import replace
+from html.parser import HTMLParser
 from io import StringIO
 from math import degrees, nan
 from threading import Thread
@@ -32,7 +34,7 @@ from optlaws.results import Page
 from tests.cli.test_show import Terminal
 from tests.internals.explorer import fact_sentences, panel_data, table_data
 from tests.internals.plots import draw_panels, empty_figure
-from tests.internals.shown import ReportTable, Row, Section, Summary, report_page, showing, steps
+from tests.internals.shown import ReportTable, Row, Section, Summary, facts, page, report_page, showing, steps
 from tests.internals.studies import Bar, Silent, watching
 
 
@@ -393,3 +395,64 @@ def test_extremes_of_a_cam_are_enclosed_at_their_places() -> None:
 def test_an_array_counts_its_laws() -> None:
     rows = {row.name: row.value for row in SUMMARIES["array"].summary()}
     assert (rows["problems"], rows["infeasible"], rows["optimal"]) == (3, 1, 2)
+
+
+# --- notebooks ---
+
+
+class Checked(HTMLParser):
+    """Elements that are closed in order, without scripts; and their text."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.text = ""
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        assert tag != "script"
+        assert not any(name.startswith("on") or name in {"href", "src"} for name, _ in attrs)
+        self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:  # noqa: ARG002 - its face
+        assert tag in {"path", "line"}
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        self.text += data
+
+
+SLOW = Cycle(
+    [Rise("35 mm", "120 deg"), Dwell("90 deg", name="wait <here>"), Return()],
+    speed="200 rpm",
+    limits={"velocity": "100 mm/s"},
+)
+#: a value with how many pictures it shows, and with parts of its text
+SHOWN: dict[str, tuple[Any, int, tuple[str, ...]]] = {
+    "solution": (SUMMARIES["solution"], 5, ("optimal", f"{SUMMARIES['solution'].objective:.7g}", "lower bound")),
+    "problem": (Problem(B=1.8, order=4, minimise="0.5*C/4 + J/32"), 0, ("1.8", "minimise")),
+    "catalogue": (optlaws.catalogue, len(optlaws.catalogue), ("modified sine",)),
+    "entry": (optlaws.catalogue["modified sine"], 5, ("modsine",)),
+    "follower": (optlaws.Follower(20, 1.5), 1, ("damping ratio",)),
+    "response": (optlaws.Follower(20, 0.05).response(smoothstep(4)), 5, ("residual acceleration",)),
+    "comparison": (optlaws.compare_laws("modified sine", "cycloidal"), 10, ("cycloidal",)),
+    "cycle": (replace(SLOW, limits={}), 4, ("wait <here>",)),
+    "cycle without laws": (SLOW, 0, ("it more time or a wider limit",)),
+    "front": (RESULTS["front"], 1, ()),
+    "surface": (pareto_front(Problem(order=3), over=("B", "C", "J"), points=4, between=(1.6, 1.8)), 0, ()),
+    "array": (SUMMARIES["array"], 1, ("infeasible",)),
+}
+
+
+@pytest.mark.parametrize("kind", SHOWN)
+def test_a_notebook_gets_whole_elements_without_scripts(kind: str) -> None:
+    value, pictures, parts = SHOWN[kind]
+    html, parser = value._repr_html_(), Checked()
+    parser.feed(html)
+    assert parser.open == []
+    assert not re.search(r"\b(?:nan|inf)\b", "".join(re.findall(r'd="([^"]*)"', html)))
+    assert html.count("<svg") == pictures
+    for part in parts:
+        assert part in parser.text
+    assert "<i>" not in page("<i>", facts({"<i>": "<i>"}))

@@ -11,13 +11,10 @@ from optlaws import (
     Chebyshev,
     InputError,
     Problem,
-    at_most,
     catalogue,
     pareto_front,
     proven_front,
     smoothstep,
-    synthesize,
-    via,
 )
 from tests.internals.laws import law_panels
 
@@ -82,16 +79,6 @@ def test_all_in_one_pair_of_axes_is_divided_by_the_peaks() -> None:
     artists = smoothstep(3).plot(panel)
     assert [line.get_label() for line in artists] == ["a", "b / 1.875", "c / 5.7735", "j / 60"]
     assert all(np.abs(line.get_ydata()).max() == pytest.approx(1.0, abs=1e-4) for line in artists)
-
-
-def test_limits_of_a_problem_are_drawn() -> None:
-    problem = Problem(B=1.8, J=at_most(150), order=3, basis=Chebyshev(9), windows=(via("a", 0.325, at=0.4),))
-    panels = axes(4)
-    labels = {one.get_label(): one for one in synthesize(problem).plot(panels)}
-    assert {"B = 1.8", "J at most 150", "via point"} <= set(labels)
-    assert labels["via point"].get_data()[0][0] == 0.4
-    assert labels["J at most 150"].get_ydata() == pytest.approx([150.0, 150.0])
-    assert any(label.startswith("no law of order 3 within these bounds has a smaller C: 4.") for label in labels)
 
 
 def test_a_front_is_drawn_into_the_axes_given() -> None:
