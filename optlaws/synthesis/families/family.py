@@ -15,7 +15,7 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes, product
 from optlaws.synthesis.families.peaks import greatest, power_peaks
-from optlaws.synthesis.families.piece_series import EvenGegenbauer, PieceSeries, sides_of
+from optlaws.synthesis.families.piece_series import PieceSeries, sides_of
 from optlaws.tolerances import AT_END, ROW_ROUNDING
 
 _END_OF_U = 1e-9  # of u: a place so near to the end is the end
@@ -295,7 +295,7 @@ class LinearFamily(SeriesFamily):
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """The rows themselves, whatever the law."""
-        if self.continuable and not self.root and type(self.table) is PieceSeries:
+        if self.continuable and not self.root:
             return self.table.planes(u, point)
         columns = self.columns(u.reshape(-1)).reshape(3, *u.shape, -1)
         return columns[0], columns[1], np.einsum("mpi,mi->mp", columns[2], point)
@@ -317,11 +317,10 @@ class LinearFamily(SeriesFamily):
     def _over_domain(self) -> Array:
         """Chebyshev series over the domain of f's columns, or of what is above a bound where these are.
 
-        Divided by a root that vanishes at its end f is a polynomial of that root; and where f is divided by powers that
-        vanish there, its values are so great that the undivided ones say more.
+        Divided by a root that vanishes at its end f is a polynomial of that root.
         """
         low, high = self.domain
-        count, weight, table = self.table.terms, np.ones(1), self.table
+        count = self.table.terms
         if low == high:
             return np.asarray(self.columns(np.array([low]))[0])
         if self.root:
@@ -329,11 +328,8 @@ class LinearFamily(SeriesFamily):
             near, far = np.sqrt(1.0 - high), np.sqrt(1.0 - low)
             u = 1.0 - (near + (far - near) * (nodes(count) + 1.0) / 2.0) ** 2
         else:
-            power = round(table.index - 0.5) if isinstance(table, EvenGegenbauer) else 0
-            count += power
             u = low + (high - low) * (nodes(count) + 1.0) / 2.0
-            weight = (((1.0 - u) / 2.0) ** power)[:, None]
-        return np.asarray(from_values(self.columns(u)[0] * weight))
+        return np.asarray(from_values(self.columns(u)[0]))
 
     def greatest(self, point: Array) -> Array:
         """The greatest of f in each law, where it has one piece."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, Self
 
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
-from optlaws.numerics.chebyshev import basis_values, even_gegenbauer_jet, product, real_parts_of_roots
+from optlaws.numerics.chebyshev import basis_values, product, real_parts_of_roots
 from optlaws.tolerances import BESIDE_BREAK
 
 _FLAT_SLOPE = 1e-9  # of a series: a slope that is less is flat
@@ -218,29 +218,6 @@ class PieceSeries:
             slope = product(way, np.asarray(chebyshev.chebder(series), dtype=np.float64))
             slopes.append(np.asarray(chebyshev.chebadd(series, slope)))
         return slopes
-
-
-@dataclass(frozen=True, eq=False)
-class EvenGegenbauer(PieceSeries):
-    """Gegenbauer polynomials of even degree in 1 - 2k, `scale` times; the last, of degree 0, is the base law's.
-
-    Their values grow so much toward k = 0 that their series, in u = 2 (1-2k)² - 1, would lose the digits of the others.
-    """
-
-    index: float = 0.5
-    scale: Array = field(default_factory=lambda: np.ones(1))
-
-    def scaled(self, factors: Array) -> Self:
-        count = len(self.scale) - 1
-        return replace(super().scaled(factors), scale=self.scale * np.append(factors[:count], factors[-1]))
-
-    def jets(self, u: Array) -> Array:
-        """Columns with two derivatives by u, by recurrence."""
-        count, polynomials = len(self.scale) - 1, even_gegenbauer_jet(self.index, len(self.scale) - 1, u)
-        shaped = np.zeros((3, len(u), self.series.shape[2]))
-        shaped[:, :, :count] = polynomials[:, :, 1:] * self.scale[:-1]
-        shaped[:, :, -1] = polynomials[:, :, 0] * self.scale[-1]
-        return shaped
 
 
 def _polynomials(u: Array, count: int) -> Array:

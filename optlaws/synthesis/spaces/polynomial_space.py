@@ -17,7 +17,7 @@ from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, gegenbauer, nodes
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily
 from optlaws.synthesis.families.names import RowName
-from optlaws.synthesis.families.piece_series import EvenGegenbauer, PieceSeries
+from optlaws.synthesis.families.piece_series import PieceSeries
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, law_from_z
 from optlaws.synthesis.spaces.space import LawSpace
@@ -136,9 +136,8 @@ class PolynomialSpace(LawSpace):
             return super().forward(slack)
         scale = np.append(self.scale / float(self.base.b(0.5)), 1.0)
         columns = gegenbauer(self.order - 0.5, int(self.index[-1]), self._u)[np.append(self.index, 0)] * scale[:, None]
-        table = PieceSeries.whole(-from_values(columns.T)).widened(len(slack))
-        if self.symmetric:
-            table = EvenGegenbauer(table.breaks, table.series[:, ::2], self.order - 0.5, -scale)
+        series = -from_values(columns.T)
+        table = PieceSeries.whole(series[::2] if self.symmetric else series).widened(len(slack))
         return LinearFamily(RowName.RATIO, slack, table=table, even=self.symmetric)
 
 
