@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import isfinite
 from typing import Literal, get_args
 
@@ -11,9 +10,10 @@ from optlaws.files.reading import check_names
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.method.exchange import IPOPT, METHODS, Method
-from optlaws.synthesis.problem.constants import warn_of_mixture
+from optlaws.synthesis.problem.constants import D, warn_of_mixture
 from optlaws.synthesis.problem.problem import Problem, differ_in_numbers
 from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.synthesis.proof.no_law import least_of
 from optlaws.synthesis.search import LawSearch, best_available, continued_by_contacts
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.spaces.of_basis import space_of
@@ -86,7 +86,7 @@ def synthesize(
     if solution is not None:
         return solution
     error = search.error()
-    raise error if isinstance(error, InfeasibleProblem) else _no_power_so_small(problem) or error
+    raise error if isinstance(error, InfeasibleProblem) else _none_so_small(problem) or error
 
 
 def continued(problem: Problem, start: Solution) -> Solution | None:
@@ -125,21 +125,23 @@ def _neighbours(first: Problem, second: Problem) -> bool:
     return spaces[0] is spaces[1]
 
 
-def _no_power_so_small(problem: Problem) -> InfeasibleProblem | None:
-    """The error where the least D of the problem is proven to exceed the prescribed one."""
-    limits = problem.range("D")
-    if limits is None or not isfinite(limits.high):
-        return None
-    try:
-        least = synthesize(replace(problem, minimise="D", D=None), bound=TIGHT)
-    except OptlawsError:
-        return None
-    if least.lower_bound <= limits.high:
-        return None
-    return InfeasibleProblem(
-        f"no law of this problem has D <= {limits.high:g}: D is at least {least.lower_bound:.7g}, proven by "
-        f"error.proof. A law with {least.objective:.7g} exists; a higher bound of D or a higher degree of Z helps",
-        problem=problem,
-        proof=least.power_certificate or least.certificate,
-        tried="the least D of the problem was sought, with a tight bound",
-    )
+def _none_so_small(problem: Problem) -> InfeasibleProblem | None:
+    """The error where the least value of a constant that is not convex is proven to exceed the prescribed one."""
+    for constant, limits in problem.bounded:
+        if constant.convex or not isfinite(limits.high):
+            continue
+        try:
+            least = synthesize(least_of(problem, constant), bound=TIGHT if constant == D else "quick")
+        except OptlawsError:
+            continue
+        if least.lower_bound > limits.high:
+            name = constant.title
+            return InfeasibleProblem(
+                f"no law of this problem has {name} <= {limits.high:g}: {name} is at least {least.lower_bound:.7g}, "
+                f"proven by error.proof. A law with {least.objective:.7g} exists; a higher bound of {name} or a higher "
+                "degree of Z helps",
+                problem=problem,
+                proof=least.power_certificate or least.certificate,
+                tried=f"the least {name} of the problem was sought, with a lower bound",
+            )
+    return None

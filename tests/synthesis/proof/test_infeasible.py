@@ -205,3 +205,13 @@ def test_the_place_is_in_the_window_also_of_symmetric_laws(start: float, stop: f
     window = Window("a", low=0.3, high=0.6, start=start, stop=stop)
     with pytest.raises(InfeasibleProblem, match=rf"the value that every law of the problem has at k = {at}\. "):
         synthesize(Problem(order=4, windows=(window,)))
+
+
+def test_a_formula_that_is_not_convex_is_proven_to_exceed_its_bound() -> None:
+    asked = Problem(order=4, B=1.8, bounds={"peak(j^2 + b, stop=0.3)": at_most(100)})
+    with pytest.raises(InfeasibleProblem, match=r"at least 257\.7895, proven by error\.proof") as caught:
+        synthesize(asked)
+    assert isinstance(caught.value.proof, Certificate)
+    proven = exact_bound(caught.value.proof)
+    assert proven is not None
+    assert 257.789 < proven < 257.7895
