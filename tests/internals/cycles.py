@@ -17,8 +17,6 @@ from optlaws.cycles.old_tables.stated_functions import stretches_of_pieces
 from optlaws.cycles.old_tables.stretches import law_of_move, position
 from optlaws.cycles.optimisation import optimal
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
-from optlaws.cycles.optimisation.optimal import halved
-from optlaws.cycles.optimisation.shared_limits import _SharedLimit as SharedLimit
 from optlaws.cycles.optimisation.span_values import size_of
 from optlaws.cycles.report import CycleReport, overload_rows
 from optlaws.cycles.specification.drive import read_drive

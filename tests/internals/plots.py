@@ -3,4 +3,4 @@
 from optlaws.plots.cam import animated, forces_figure
 from optlaws.plots.front import draw_front
 from optlaws.plots.report import draw_panels
-from optlaws.plots.style import DISTINCT, WARM, empty_figure, plot_style, save_picture, shades
+from optlaws.plots.style import DISTINCT, empty_figure, plot_style, save_picture, shades

@@ -17,6 +17,7 @@ from optlaws import (
     smoothstep,
 )
 from tests.internals.laws import law_panels
+from tests.internals.plots import DISTINCT, draw_front, shades
 
 
 def axes(count: int) -> np.ndarray:
@@ -109,3 +110,19 @@ def test_fronts_in_one_panel_are_named_apart() -> None:
 def test_other_axes_are_refused() -> None:
     with pytest.raises(InputError, match="one pair of axes or into four, got 3"):
         smoothstep(3).plot(axes(3))
+
+
+def test_colours_differ() -> None:
+    assert len(set(DISTINCT)) == 6
+    for count in range(1, 6):
+        assert len(set(shades(count))) == count
+
+
+def test_a_front_can_be_drawn_alone() -> None:
+    front = pareto_front(Problem(order=3), ("B", "C"), points=3, between=(1.5, 1.8))
+    line, *_ = draw_front(front)
+    assert line.axes is not None
+    assert line.axes.get_ylabel() == "peak acceleration C (dimensionless)"
+    surface = pareto_front(Problem(order=3), ("B", "C", "J"), points=4, between=(1.5, 1.8))
+    (points,) = draw_front(surface)
+    assert len(np.asarray(points.get_array())) == len(surface)  # type: ignore[attr-defined]

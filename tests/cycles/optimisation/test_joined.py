@@ -25,7 +25,6 @@ from optlaws import (
     Rise,
 )
 from tests.internals.cli import exit_code
-from tests.internals.cycles import halved
 
 WAYS = [Free("30 mm", "0.2 s"), Free("20 mm", "0.2 s"), Free("-50 mm", "0.3 s"), Free("25 mm", "0.1 s"), Free("-25 mm")]
 TIMES = np.array([0.0, 0.2, 0.4, 0.7, 0.8, 1.0])
@@ -147,13 +146,6 @@ def test_velocities_are_the_least_of_their_space_alone_where_no_motion_has_the_l
     assert few.status == many.status == "optimal"
     assert few.objective > many.objective > 0.3
     assert many.search_space == "splines of degree 3 in 24 pieces"
-
-
-def test_halved_pieces_keep_what_is_straight() -> None:
-    assert halved(PeriodicPieces((0.0, 0.5, 0.75, 1.0), 3, 2, (1,))) == PeriodicPieces(
-        (0.0, 0.25, 0.5, 0.75, 0.875, 1.0), 3, 2, (2,)
-    )
-    assert halved(PeriodicPieces(400, 3, 2)) is None
 
 
 # --- least root mean squares ---

@@ -2,8 +2,7 @@
 
 import math
 import re
-from dataclasses import dataclass, replace
-from types import SimpleNamespace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -26,7 +25,7 @@ from optlaws import (
     smoothstep,
     synthesize,
 )
-from tests.internals.cycles import Kind, SharedLimit, optimal, read_drive, size_of
+from tests.internals.cycles import Kind, optimal, read_drive, size_of
 from tests.internals.motion import Piece
 from tests.sampling import sampled
 
@@ -65,25 +64,6 @@ def test_a_power_is_the_least_within_a_shared_limit() -> None:
     both = [Rise("60 deg", "0.2 s"), Dwell("0.3 s"), Return(duration="0.2 s"), Dwell()]
     shared = cycle(both, minimise="power", drive=INERTIA, limits={"rms torque": f"{most} N m"})
     assert shared.objective == pytest.approx(0.02 * stroke**2 / duration**3 * single.objective, rel=1e-5)
-
-
-def test_below_a_peak_the_nearest_share_is_taken_at_which_no_laws_keep_the_limit() -> None:
-    @dataclass(frozen=True)
-    class ByHand(SharedLimit):
-        """Laws are their peaks; those below 2 - 1e-6 take twice what is left."""
-
-        _exact = True
-        left = 1.0
-
-        def _least(self, peak: float) -> Any:
-            return (peak,)
-
-        def _least_taken(self, laws: Any) -> float:
-            return 2.0 if laws[0] < 2.0 - 1e-6 else 0.5
-
-    by_hand = ByHand(SimpleNamespace(spans=(None,)), None, 1.0)  # type: ignore[arg-type]
-    assert by_hand._impossible(2.0, 1.0) == 2.0 * (1.0 - 1e-6)
-    assert by_hand._impossible(2.0, 2.0 - 1e-6) == 2.0 - 1e-6
 
 
 @pytest.mark.long
