@@ -21,7 +21,8 @@ from .cams.least_sizes import (
 from .cycles.advising.candidates import LawKind as LawKind, LawMeasure as LawMeasure, ProvenLeast as ProvenLeast
 from .cycles.axes.enclosed import Way as Way
 from .cycles.axes.interlock import Interlock as Interlock, LeastClearance as LeastClearance
-from .cycles.axes.machine_axes import AxesPicture as AxesPicture, Overlap as Overlap
+from .cycles.axes.machine_answers import AxesPicture as AxesPicture
+from .cycles.axes.machine_axes import Overlap as Overlap
 from .cycles.answers import PlotOver as PlotOver
 from .cycles.specification.limits import LimitTaken as LimitTaken
 from .cycles.moves.time_front import TimePoint as TimePoint

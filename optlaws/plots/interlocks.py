@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 
 from optlaws.cycles.axes.interlock import After
-from optlaws.cycles.axes.machine_axes import AxesPicture
+from optlaws.cycles.axes.machine_answers import AxesPicture
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError
 from optlaws.files.reading import check_names

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
-from optlaws.cycles.axes.overlapping import planned
+from optlaws.cycles.axes.planned_axes import planned
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.specification.periods import Extent, duration_range
 from optlaws.cycles.specification.segments import CycleSegment, Dwell
