@@ -191,12 +191,6 @@ def test_a_peak_without_bound_is_said_to_be() -> None:
 # --- what is shown first ---
 
 
-@pytest.mark.parametrize("file", ["cycle_press.toml", "cycle_motor.toml"])
-def test_problem_files_are_shown(file: str) -> None:
-    found = start(str(ROOT / "problems" / file))
-    assert "trust" in cycle_view.answer(CycleRequest(study=found["machine"]))
-
-
 def test_a_solution_is_shown_as_its_problem_and_a_law_as_itself(tmp_path: Path) -> None:
     file = tmp_path / "solution.json"
     file.write_text(json.dumps(synthesize(Problem(order=4, B=1.7)).to_dict()), "utf-8")

@@ -2,12 +2,11 @@
 
 import json
 from math import pi
-from pathlib import Path
 from typing import Any
 
 import pytest
 
-from optlaws import Follower, MotionLaw, catalogue, polydyne, savin, smoothstep
+from optlaws import Follower, MotionLaw, catalogue, polydyne, savin
 from tests.internals.cli import app_of_cli as app
 
 Capture = pytest.CaptureFixture[str]
@@ -62,33 +61,11 @@ def test_a_law_of_the_catalogue_at_a_speed(capsys: Capture) -> None:
     assert numbers["residual_displacement"] == response.residual_displacement
 
 
-def test_a_law_from_a_file(capsys: Capture, tmp_path: Path) -> None:
-    for content in (smoothstep(4).to_json(), json.dumps({"status": "optimal", "law": smoothstep(4).to_dict()})):
-        file = tmp_path / "law.json"
-        file.write_text(content, "utf-8")
-        numbers = printed(capsys, file, "--frequency", 20)
-        assert MotionLaw.from_dict(numbers["cam"]["law"]) == smoothstep(4)
-
-
-def test_an_unbounded_jerk_is_null(capsys: Capture) -> None:
-    assert printed(capsys, "constant acceleration", "--frequency", 20)["cam"]["constants"]["J"]["value"] is None
-    code, out, _ = called(capsys, "constant acceleration", "--frequency", 20)
-    assert code == 0
-    assert ["J", "of", "the", "cam", "inf"] in [line.split()[:5] for line in out.splitlines()]
-
-
 def test_what_a_person_reads(capsys: Capture) -> None:
     code, out, err = called(capsys, "IV", "--alpha", 11, "--frequency", 18, "--design-frequency", 20)
     assert (code, err) == (0, "")
     for part in ("dynamic factor", "1.185564348", "residual acceleration", "2.807512597", "6.292873872", "-10 %"):
         assert part in out
-
-
-def test_the_spectrum_is_drawn(capsys: Capture, tmp_path: Path) -> None:
-    for kind in ("png", "svg"):
-        file = tmp_path / f"spectrum.{kind}"
-        assert called(capsys, "modified sine", "--frequency", 20, "--spectrum", 5, 40, "--plot", file)[0] == 0
-        assert len(file.read_bytes()) > 5000
 
 
 MACHINE = ("--natural-frequency", "16.7 Hz", "--speed", "105 rpm", "--rise", "120 deg")

@@ -32,11 +32,6 @@ def test_a_law_as_json_can_be_read_back(capsys: pytest.CaptureFixture[str]) -> N
     ]
 
 
-def test_a_peak_without_bound_is_null(capsys: pytest.CaptureFixture[str]) -> None:
-    text = output(capsys, "law", "constant acceleration", "--json")
-    assert json.loads(text, parse_constant=pytest.fail)["constants"]["J"] == {"value": None, "k": 0.5}
-
-
 def test_members_of_families(capsys: pytest.CaptureFixture[str]) -> None:
     assert "6.760957066" in output(capsys, "law", "III", "--alpha", "7.2")
     assert "family II" in output(capsys, "law", "II", "--alpha=-5")
@@ -68,11 +63,6 @@ def test_what_solve_wrote_is_shown_as_any_law(capsys: pytest.CaptureFixture[str]
     assert text.splitlines()[1].split(maxsplit=1) == ["continuous", "a, b, c"]
     law = MotionLaw.from_dict(json.loads(output(capsys, "law", str(file), "--json"))["law"])
     assert law == MotionLaw.from_dict(json.loads(file.read_text("utf-8"))["law"])
-
-
-def test_names_match_whatever_their_case_and_blanks(capsys: pytest.CaptureFixture[str]) -> None:
-    shown = {output(capsys, "law", name) for name in ("MODSINE", "ModSine", "mod sine", "modified  SINE")}
-    assert len(shown) == 1
 
 
 def test_rounding_is_shown_as_nothing(capsys: pytest.CaptureFixture[str]) -> None:
