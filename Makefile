@@ -67,8 +67,8 @@ format: $(DEV) ## format the code and mend what can be mended
 	$(BIN)/ruff format
 	$(BIN)/ruff check --fix
 
-docs: $(DEV) ## build the documentation into docs/_build/html
-	$(BIN)/python -m sphinx -b html -W --keep-going -n -E -q docs docs/_build/html
+docs: $(DEV) ## build the documentation into docs/_build/html (THEME=basic)
+	$(BIN)/python -m sphinx -b html -W --keep-going -n -E -q $(if $(THEME),-D html_theme=$(THEME)) docs docs/_build/html
 
 bench: $(DEV) ## run the benchmarks
 	$(BIN)/python -m tests.bench
@@ -80,8 +80,8 @@ results: $(RUN) ## regenerate results/ from every problem file
 check-results: $(DEV) ## run every problem file on a copy of results/ and see that nothing in it changes
 	$(BIN)/python -m tests.check_results $(UNSTEADY)
 
-check-proofs: $(DEV) ## check every proof of results/ with optlaws verify and with the program in JavaScript
-	$(BIN)/python -m tests.check_proofs $(if $(CI),--each 4)
+check-proofs: $(DEV) ## check the proofs of results/ with optlaws verify and with the program in JavaScript (EACH=4)
+	$(BIN)/python -m tests.check_proofs $(if $(EACH),--each $(EACH))
 
 constraints: $(BIN)/python ## resolve every dependency again into constraints.txt (needs uv)
 	@test -n "$(UV)" || { echo "make constraints needs uv" >&2; exit 1; }
