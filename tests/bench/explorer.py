@@ -4,7 +4,6 @@ Run it with `python -m tests.bench.explorer`; `make bench` ends with it where th
 server is a process of its own, and nothing looks at the page while it is dragged.
 """
 
-import shutil
 import subprocess
 import sys
 from statistics import median, quantiles
@@ -13,12 +12,13 @@ from urllib.parse import urlencode
 from rich.console import Console
 from rich.table import Table
 
+from tests.explorer.conftest import CHROMIUM, FLAGS
+
 STEPS, FIRST_STEPS = 60, 5
 FIRST = 1.4567
 AIM, WORST = 30.0, 60.0
 LOADED = 500.0
 PIXELS, APART = 2.5, 200
-FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking"]
 SERVER = "import sys; from tests.internals.explorer import ADDRESS, opened, server, start\n\
 with opened(0) as listening: print(listening.getsockname()[1], flush=True); server(start(None)).run([listening])"
 #: notes, at each paint after an answer, when its input came, its question was sent, and its answer was there
@@ -50,7 +50,7 @@ def measured(degree: int) -> tuple[list[list[float]], float]:
         assert serving.stdout is not None
         address = f"http://127.0.0.1:{serving.stdout.readline().strip()}/#{urlencode({'law': law})}"
         with sync_playwright() as playwright:
-            browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
+            browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS.split())
             for _ in range(2):  # the processes of the server are ready when the second one comes
                 page = browser.new_context(viewport={"width": 1280, "height": 800}).new_page()
                 page.goto(address, wait_until="commit")
@@ -81,7 +81,7 @@ def main() -> None:
     except ModuleNotFoundError:
         console.print("explorer: not measured, playwright is not installed")
         return
-    if shutil.which("chromium") is None:
+    if CHROMIUM is None:
         console.print("explorer: not measured, there is no chromium")
         return
     heads = ("degree", "input to paint, ms", "95th percentile", "aims", "to the question", "the answer", "to the paint")
