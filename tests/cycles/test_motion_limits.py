@@ -87,6 +87,18 @@ def test_snap_is_kept_and_named_where_no_law_keeps_it() -> None:
         cycle(limits={"snap": "60000 m/s^4"}, order=4).status  # noqa: B018
 
 
+@pytest.mark.parametrize(
+    ("jerk", "remedy"),
+    [("1000 m/s^3", "more time or a wider limit"), ("1150 m/s^3", "a wider limit or a higher degree")],
+)
+def test_a_higher_degree_is_offered_where_it_may_help(jerk: str, remedy: str) -> None:
+    """A motion of 35 mm in 0.1 s has a jerk of 32 times 35 m/s^3 at least, whatever its degree."""
+    rise = [Rise("35 mm", "0.1 s"), Dwell("0.1 s"), Return()]
+    with pytest.raises(InfeasibleProblem, match=f"the least is the jerk .*: give it .*{remedy}") as refused:
+        Cycle(rise, period="0.4 s", limits={"jerk": jerk}).solve()
+    assert refused.value.tried.endswith("k = 0 is at 0 s (0 deg), k = 1 at 0.1 s (90 deg)")
+
+
 @pytest.mark.long
 def test_joined_motions_have_limits_of_their_segments() -> None:
     """Of two free motions one may slow down less than the other."""

@@ -39,6 +39,7 @@ from optlaws.synthesis.least_time.move_limits import RESIDUALS
 from optlaws.synthesis.least_time.time_search import least_time
 from optlaws.synthesis.least_time.timed_move import TimedMove
 from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import SAME_TIME
 
@@ -266,7 +267,9 @@ class FastestMove(LawExport, MovePlan, JsonText):  # type: ignore[misc] # its ex
         """How far the least time is proven, and the statement on all laws of the space that is."""
         word = "proven" if self.status is Status.OPTIMAL else "a local optimum; proven"
         space = self.least.move.problem
-        return f"{word}: laws of order {space.order} in {space.basis!r} take more than {self.none_below:.9g} s"
+        basis = space.basis
+        among = f"with Z of degree {basis.degree}" if isinstance(basis, PolynomialBasis) else f"in {basis!r}"
+        return f"{word}: laws of order {space.order} {among} take more than {self.none_below:.9g} s"
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict in SI units: law and proofs in one, which `optlaws verify` checks."""

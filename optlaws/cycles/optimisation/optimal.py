@@ -61,6 +61,7 @@ _MOST, _LEAST = 600, 3  # pieces of a law, and of a motion even so: fewer may no
 _FEW = {Kind.VELOCITY: 6, Kind.LOAD: 4, Kind.POWER: 4}
 _ALL_MOTIONS = "all motions through the joints"
 _SNAP = Side(Kind.SNAP)
+_HIGHER_DEGREE = "more time, a wider limit or a higher degree"
 _ROUGH = 15  # degree of Z where points on the way or velocities bend the law
 
 
@@ -357,17 +358,19 @@ def with_least_limit(error: InfeasibleProblem, span: LawSpan, objective: CycleOb
         others = {other: best for other, best in problem.bounded if other not in limited.constants}
         minimised = replace(unlimited(problem), minimise=limited.objective)
         try:
-            least = synthesize(replace(minimised, bounds=others)).lower_bound
+            gentlest = synthesize(replace(minimised, bounds=others))
         except (InfeasibleProblem, SolverFailure):
             continue
+        least, of_any_degree = gentlest.lower_bound, gentlest.best_possible or -inf
         if limit is None or least <= limit.high:
             continue
+        remedy = "more time or a wider limit" if of_any_degree > limit.high else _HIGHER_DEGREE
         allowed, needed = (in_units(key, value, objective.axis) for value in (most, least / limit.high * most))
         return InfeasibleProblem(
             sentence(
-                "{}: no law keeps its limits in {} s: among {} the least is {}, but its limit is {}: give it more "
-                "time, a wider limit or a higher degree",
+                "{}: no law keeps its limits in {} s: among {} the least is {}, but its limit is {}: give it {}",
                 span.where, f"{span.duration:.9g}", search_space(problem, span, objective.order), needed, allowed,
+                remedy,
             ),
             problem=problem,
             tried=error.tried,
