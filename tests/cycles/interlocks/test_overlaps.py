@@ -421,6 +421,7 @@ def test_laws_of_least_acceleration_keep_limits_and_interlocks(limits: dict[str,
     assert not ((x > 0.05 + 1e-9) & (x < 0.25 - 1e-9) & (z < 0.04 - 1e-9)).any()
     # laws of these shapes in these times; no law has less than one that bends for the interlock
     assert best.status == "optimal"
+    assert best.gain is not None
     assert best.gain > 1.5
 
 
