@@ -460,7 +460,7 @@ def test_a_motion_without_rest_begins_where_it_turns_and_not_at_its_lowest_row()
     assert int(np.argmin(y)) == 178
     table = split_table(np.linspace(0.0, 360.0, 361), y, digit=1e-2)
     assert [part.stop for part in table.stretches] == pytest.approx([180.0, 360.0], abs=0.02)
-    cycle = table.bettered(0.05).cycle(speed="200 rpm")
+    cycle = table.bettered(0.05, degree=9).cycle(speed="200 rpm")
     assert cycle.duration == pytest.approx(0.3)
 
 
