@@ -9,11 +9,10 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[name] = "1"
 os.environ["MPLBACKEND"] = "Agg"
 
-from tests.bench import arrays, explorer, growth, machines, run_time, startup, study  # noqa: E402  # threads are counted when numpy is loaded
+from tests.bench import explorer, growth, machines, run_time, startup, study  # noqa: E402  # threads are counted when numpy is loaded
 from tests.bench.report import main  # noqa: E402
 
 main()
-arrays.main()
 study.main()
 growth.main()
 machines.main()
