@@ -1,13 +1,9 @@
 """What is timed, and the tables that say so."""
 
-import subprocess
 import sys
-import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from importlib.metadata import version
-from pathlib import Path
 from statistics import median
 from time import perf_counter
 
@@ -17,25 +13,14 @@ from rich.console import Console
 from rich.table import Table
 
 import optlaws
-from optlaws import Chebyshev, Problem, Solution, pareto_front, sweep, synthesize
-from optlaws.typing import Bound
+from optlaws import Chebyshev, Problem, Solution, sweep, synthesize
 from tests.bench.plain import Answer, Claim, Rows, highs, opti, power_by_opti, power_by_slsqp
-from tests.documents import ROOT
 
 DEGREES = (3, 9, 19, 39)
 FIRST = Problem(B=1.641, order=4, monotone=True)
 POWER = Problem(B=1.641, order=4, basis=Chebyshev(9), minimise="D")
 VELOCITIES = np.linspace(1.55, 2.5, 100)
 REPEATS = 7
-COLD = (
-    "import casadi, time\n"
-    "from optlaws import *\n"
-    "casadi.nlpsol('x', 'ipopt', {{'x': (x := casadi.MX.sym('x')), 'f': x * x}}, {{'print_time': False, "
-    "'ipopt.print_level': 0, 'ipopt.sb': 'yes'}})(x0=1)\n"
-    "began = time.perf_counter()\n"
-    "synthesize({problem!r})\n"
-    "print(time.perf_counter() - began)"
-)
 
 
 @dataclass(frozen=True)
@@ -52,7 +37,6 @@ class Row:
 
     problem: Problem
     solution: Solution
-    cold: float
     single: float
     swept: float
     by_opti: Cost
@@ -69,12 +53,6 @@ def seconds(task: Callable[[], object], repeats: int = REPEATS) -> float:
         task()
         times.append(perf_counter() - began)
     return median(times)
-
-
-def python(*arguments: str) -> str:
-    """What a fresh interpreter prints."""
-    done = subprocess.run([sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True, check=True)
-    return done.stdout
 
 
 def cost(solve: Callable[[Rows, float], Claim], problem: Problem, rows: Rows) -> Cost:
@@ -99,14 +77,11 @@ def measured(degree: int) -> Row:
     """All ways of asking for one degree."""
     problem = replace(FIRST, basis=Chebyshev(degree))
     family = [replace(problem, B=float(B)) for B in VELOCITIES]
-    # a cold law is the first of its shape, in a process that has loaded CasADi and IPOPT
-    cold = median(float(python("-c", COLD.format(problem=problem))) for _ in range(3))
     solution = synthesize(problem)
     rows = Rows(problem)
     return Row(
         problem=problem,
         solution=solution,
-        cold=cold,
         single=seconds(lambda: synthesize(problem), 15),
         swept=seconds(lambda: list(sweep(family)), 3) / len(family),
         by_opti=cost(opti, problem, rows),
@@ -120,7 +95,6 @@ def times_table(rows: Sequence[Row]) -> Table:
     """Milliseconds a law."""
     headings = (
         "degree of Z",
-        "cold",
         "single",
         "along B",
         "Opti",
@@ -131,7 +105,7 @@ def times_table(rows: Sequence[Row]) -> Table:
     table = Table(*headings, title="ms a law: l = 4, 0 <= b <= B = 1.641; along B: 1.55 to 2.5")
     for row in rows:
         plain = (row.by_opti.whole, row.by_opti.solver, row.by_highs.whole, row.by_highs.solver)
-        times = (row.cold, row.single, row.swept, *plain)
+        times = (row.single, row.swept, *plain)
         table.add_row(degree_of(row.problem), *(f"{1e3 * value:.2f}" for value in times))
     return table
 
@@ -197,30 +171,6 @@ def power_tables() -> list[Table]:
     return [times, worth]
 
 
-def fronts_table() -> Table:
-    """Fronts, beside as many laws one after the other by a plain way with its rows given."""
-    table = Table("front", "points", "ms", "plain way", "ms", "ratio", "aim, ms", title="fronts of order 4, degree 9")
-    chain = Problem(order=4, basis=Chebyshev(9))
-    rows, quick, tight = (
-        Rows(chain.at_velocity(1.6)),
-        ("C over B", "linprog", highs),
-        ("D over B, proven", "SLSQP", power_by_slsqp),
-    )
-    for (name, plain, solve), count, aim in ((quick, 50, 50.0), (quick, 1000, 250.0), (tight, 50, 5000.0)):
-        bound: Bound = "tight" if solve is power_by_slsqp else "quick"
-        over = ("B", name[0])
-        front = pareto_front(chain, over=over, points=count, bound=bound)
-        assert len(front) == count
-        assert all(solution.gap < 1e-8 for solution in front)
-        own = 1e3 * seconds(partial(pareto_front, chain, over=over, points=count, bound=bound), 3)
-        velocities = front.values[:, 0].tolist()
-        other = 1e3 * seconds(partial(list, map(partial(solve, rows), velocities)), 1)
-        table.add_row(
-            name, str(count), f"{own:.0f}{missed(own, aim)}", plain, f"{other:.0f}", f"{own / other:.2f}", f"{aim:.0f}"
-        )
-    return table
-
-
 def worth_of(claimed: float, power: float, velocity: float) -> tuple[str, str]:
     """True peak over claim and b over B, as text."""
     return f"{power / claimed - 1.0:+.1e}", f"{max(0.0, velocity - 1.0):.1e}"
@@ -262,21 +212,6 @@ def accuracy_table(rows: Sequence[Row]) -> Table:
     return table
 
 
-def table_job() -> float:
-    """Seconds of the whole table in a fresh process."""
-
-    def run() -> None:
-        with tempfile.TemporaryDirectory() as out:
-            python("-m", "optlaws", "run", str(Path("problems") / "optimal_table.toml"), "--out", out)
-
-    return seconds(run, 3)
-
-
-def import_time() -> float:
-    """Seconds of `import optlaws`, those of the bare interpreter taken away."""
-    return seconds(lambda: python("-c", "import optlaws"), 9) - seconds(lambda: python("-c", ""), 9)
-
-
 def missed(value: float, aim: float) -> str:
     """A star where an aim is missed."""
     return " *" if value > aim else ""
@@ -290,8 +225,5 @@ def main() -> None:
         f"NumPy {np.__version__}, Python {sys.version.split()[0]}, one BLAS thread, medians"
     )
     rows = [measured(degree) for degree in DEGREES]
-    for table in (times_table(rows), ratios_table(rows), accuracy_table(rows), *power_tables(), fronts_table()):
+    for table in (times_table(rows), ratios_table(rows), accuracy_table(rows), *power_tables()):
         console.print(table)
-    job, imported = table_job(), import_time()
-    console.print(f"the whole table, cold: {job:.2f} s (aim: less than 3 s){missed(job, 3.0)}")
-    console.print(f"import optlaws: {imported:.3f} s (aim: less than 0.3 s){missed(imported, 0.3)}")
