@@ -36,6 +36,8 @@ _ROWS_TO_STAND_OUT = 6
 _EQUAL = 3
 #: a point far off is so from where either side goes on, by so much of the size that the filter gives it
 _BOTH = 0.35
+#: and by no more of it than noise explains, where no polynomial is near the rows beside: then they tell nothing
+_TOO_FAR = 3.0
 #: noise that is less, in standard deviations of rounding, may be rounding alone
 _BEYOND_ROUNDING = 1.3
 #: differences whose size is by so much less than that of the order below are no noise
@@ -445,14 +447,14 @@ def _far_points(places: Array, heights: Array, noise: float) -> Mask:
 
 
 def _nearest_rows(weights: Array, differences: Array, worst: int) -> list[dict[int, float]]:
-    """The row that stands out most in differences, or two beside it, with their sizes, what explains these best first.
+    """The row that stands out most in differences, or two at or beside it, with their sizes, the likeliest first.
 
     In high differences two points that are off by about the same stand out less than the rows beside them.
     """
     order = weights.shape[1] - 1
     near = slice(max(worst - 2 * order, 0), worst + order + 1)
     tried = []
-    for rows in ([worst], [worst + 1, worst + 2], [worst - 2, worst - 1]):
+    for rows in ([worst], *([worst + i, worst + i + 1] for i in (1, -2, 0, -1))):
         if order <= rows[0] and rows[-1] <= len(differences) - 1:
             columns = _spread_columns(weights, rows)[near]
             sizes = np.linalg.lstsq(columns, differences[near], rcond=None)[0]
@@ -466,7 +468,8 @@ def _are_off(x: Array, y: Array, sizes: Mapping[int, float], noise: float) -> bo
     for row, size in sizes.items():
         others = y.copy()
         others[[other for other in sizes if other != row]] -= [sizes[other] for other in sizes if other != row]
-        if off_both_sides(x, others, row, float(np.sign(size)), noise) <= _BOTH * abs(size):
+        off = off_both_sides(x, others, row, float(np.sign(size)), noise)
+        if not _BOTH * abs(size) < off < _TOO_FAR * abs(size):
             return False
     return True
 
@@ -484,15 +487,17 @@ def _spread_columns(weights: Array, rows: Sequence[int]) -> Array:
 def off_both_sides(places: Array, heights: Array, row: int, sign: float, noise: float) -> float:
     """By how much a point is above where both sides of it go on, or below with the sign -1.
 
-    At a joint or a corner a point is where one side goes on; one that is far off is so for both sides.
+    At a joint or a corner a point is where one side goes on; one that is far off is so for both sides. Where these are
+    near no polynomial, it is so if they are all nearer to theirs.
     """
     off = 0.0
     for degree in _DEGREES_BESIDE:
         sides = [_beyond(places[rows], heights[rows], places[row], degree) for rows in _beside(row, 2 * degree + 1)]
         off = min(sign * (heights[row] - end) for end, *_ in sides)
         if max(left for _, left, _ in sides) <= (_FITTING * noise) ** 2:
-            break
-    return off
+            return float(off)
+    unknown = max(float(np.sqrt(left * (1.0 + share))) for _, left, share in sides)
+    return float(off) if off > unknown else 0.0
 
 
 def _differences(weights: Array, values: Array) -> Array:
