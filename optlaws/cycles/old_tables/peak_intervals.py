@@ -18,12 +18,12 @@ from optlaws.numbers import Array
 _ABOVE, _BEYOND = 3.0, 0.6
 #: of a peak, by which a spline may be off a smooth motion where the samples have all digits
 _APPROXIMATION = 1e-3
-#: of a difference of jerk by the length of pieces: what the peak of acceleration at a kink halfway between two knots is
-#: less in the nearest spline of even pieces of degree 5; at a knot it is 0.085
+#: of a jump of the next derivative by the length of pieces: what the peak of a velocity or an acceleration at a kink is
+#: less in the nearest spline of even pieces of degree 5, wherever its knots are
 _KINK = 0.14
-#: of a difference of jerk by the cube of the length of pieces: what that spline is off such a kink, in the mean of
-#: squares beside it; and by how many deviations of a fit rows would show it, so that there were more pieces
-_OFF_KINK, _SHOWN = 0.0031, 6.0
+#: of that jump by powers of this length: what that spline is off the position, in the mean of squares beside the kink
+#: of a velocity or an acceleration; and by how many deviations of a fit rows would show it, so that pieces were more
+_OFF_KINK, _SHOWN = (0.0, 0.0104, 0.0031), 6.0
 #: windows have so many rows, and each begins so many parts of its length behind the last one
 _LONGER, _OVERLAP = 1.35, 6
 #: places of each piece of degree 5 at which a band is looked at, and of a move
@@ -123,18 +123,18 @@ def most_peak(fits: Sequence[CurveFit], nu: int, low: float, high: float) -> flo
         values = np.abs(fit.values(at, nu))
         peaks.append(float(values.max()))
         parts = max(fit.pieces, len(fit.breaks) - 1, fit.degree - DEGREE)
-        if nu == 2 and parts > SIMPLE:
-            values += _smoothed_kink(fit, at, (fit.stop - fit.start) / parts)
+        if nu <= 2 and parts > SIMPLE:
+            values += _smoothed_kink(fit, nu, at, (fit.stop - fit.start) / parts)
         most = max(most, float((values + _ABOVE * fit.deviation(at, nu)).max()))
     return most * (1.0 + _APPROXIMATION) + max(peaks) - min(peaks) if peaks else inf
 
 
-def _smoothed_kink(fit: CurveFit, at: Array, length: float) -> Array:
-    """What an acceleration is more at a kink that pieces of a fit smooth: a share of its jump of jerk by their length.
+def _smoothed_kink(fit: CurveFit, nu: int, at: Array, length: float) -> Array:
+    """What a velocity or an acceleration is more at a kink that pieces of a fit smooth: of its jump by their length.
 
-    The jerk of a smooth motion changes twice as much over twice as far, and that of a kink as much.
+    The next derivative of a smooth motion changes twice as much over twice as far, and that of a kink as much.
     """
-    near, far = (fit.values(at + apart, 3) - fit.values(at - apart, 3) for apart in (length, 2.0 * length))
+    near, far = (fit.values(at + apart, nu + 1) - fit.values(at - apart, nu + 1) for apart in (length, 2.0 * length))
     jump = np.maximum(np.minimum(2.0 * np.abs(near) - np.abs(far), np.abs(far)), 0.0)
-    hidden = _SHOWN * fit.deviation(at, 0) / (_OFF_KINK * length**3)
+    hidden = _SHOWN * fit.deviation(at, 0) / (_OFF_KINK[nu] * length ** (nu + 1))
     return np.asarray(_KINK * length * np.minimum(jump, hidden))
