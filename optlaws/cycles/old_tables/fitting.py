@@ -61,12 +61,6 @@ AS_LIKELY = 4.0
 _ENDS_BY = 6
 
 
-def _ladder(rows: int, joints: int) -> Iterator[int]:
-    for pieces in _PIECES:
-        if pieces == 1 or (pieces + DEGREE + (DEGREE - 1) * joints) * _ROWS_EACH <= rows:
-            yield pieces
-
-
 def fits_of(
     places: Array,
     heights: Array,
@@ -111,21 +105,35 @@ def fits_of(
     joints: tuple[Joint, ...] = ()
     if smooth is None and not few:
         joints, fits = rough.jointed(fits)
+    smoothly = rough, joints, fits
+    if smooth is None and not few:
         rough, joints, fits = rough.with_corners(joints, fits)
-        fitter = replace(fitter, corners=rough.fitter.corners, ends=rough.fitter.ends)
-    best = rough.best(fits)
-    if explaining and rough.criterion(rough.best(plain)) < rough.criterion(best):
+    if explaining and rough.criterion(rough.best(plain)) < rough.criterion(rough.best(fits)):
         refined = [_refined(fitter, fit) for fit in rough.accepted(polynomials)]
         if likely(min(fit.squares for fit in refined), len(places)):
             return refined
+    family, price = _of_all_rows(fitter, rough, joints, fits), log(len(places))
+    if any(rough.fitter.corners):
+        # where places are as near as all rows tell, a corner may be no likelier
+        without = _of_all_rows(fitter, *smoothly)
+        if without and (not family or without[0].criterion(price) <= family[0].criterion(price) + EVIDENT):
+            return without
+    return family
+
+
+def _of_all_rows(
+    rows: LeastSquares, search: _Search, joints: tuple[Joint, ...], fits: Sequence[CurveFit]
+) -> list[CurveFit]:
+    """The likeliest fits to all rows, near those of a search that some of them did for."""
+    best = search.best(fits)
     at = best.start, best.stop
     if joints:
-        joints = rough.fitter.placed(at, joints, best.pieces)
-    whole = _Search(fitter, rough.most)
+        joints = search.fitter.placed(at, joints, best.pieces)
+    whole = _Search(replace(rows, corners=search.fitter.corners, ends=search.fitter.ends), search.most)
     starts = {fit.pieces: (fit.start, fit.stop) for fit in fits}
-    near = float(np.median(np.diff(places)))
+    near = float(np.median(np.diff(rows.x)))
     # of rows of which some were left out in the search, fewer pieces tell no more than these did
-    fewest = best.pieces if rough.rows < len(places) else 1
+    fewest = best.pieces if search.rows < len(rows.x) else 1
     return whole.accepted(whole.climbed(joints, at, near, starts, fewest=fewest))
 
 
@@ -201,10 +209,12 @@ class _Search:
         Near means within a length of where fits with so many pieces start, else of where the last one does.
         """
         fits: list[CurveFit] = []
-        for pieces in _ladder(self.rows, len(joints)):
+        for pieces in _PIECES:
             if pieces < min(fewest, _ENDS_BY) - 1:
                 continue
-            if pieces > self.most:
+            # rows of the rests tell nothing of the pieces between them
+            coefficients = pieces + DEGREE + (DEGREE - 1) * len(joints)
+            if pieces > self.most or (pieces > 1 and coefficients * _ROWS_EACH > self._rows_between(at)):
                 break
             if pieces <= _ENDS_BY:
                 at = min({at, starts.get(pieces, at)}, key=partial(self._squares, joints, pieces))
@@ -224,6 +234,10 @@ class _Search:
                 break
         return fits
 
+    def _rows_between(self, at: tuple[float, float]) -> int:
+        first, last = self.fitter.x.searchsorted(at).tolist()
+        return int(last - first)
+
     def _squares(self, joints: Sequence[Joint], pieces: int, at: tuple[float, float]) -> float:
         return self.fitter.solved(*at, joints, pieces)[0]
 
@@ -234,7 +248,7 @@ class _Search:
         for contact in _CONTACTS if at_rests else ():
             fits = []
             for degree in _DEGREES:
-                if degree * _ROWS_EACH > self.rows or degree > self.most + DEGREE:
+                if degree * _ROWS_EACH > self._rows_between(at) or degree > self.most + DEGREE:
                     break
                 fitter = replace(self.fitter, degree=degree, contact=contact)
                 at = fitter.polynomial_ends(at)

@@ -8,6 +8,7 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import BPoly, BSpline
 
 from optlaws.cycles.old_tables.curve_fit import CANDIDATES, DEGREE, CurveFit, End, Joint, basis
@@ -17,6 +18,8 @@ from optlaws.numbers import Array
 _LEFT = 2
 #: numbers in a matrix that is factored at most: from some 9,000 on OpenBLAS takes several threads, which cost more here
 _DENSE = 8_000
+#: where each piece of a spline is looked at, and by how many times the stroke it goes where no rows tell it
+_LOOKED_AT, _SWINGING = np.arange(0.125, 1.0, 0.25), 2.0
 #: rows in searches for joints, which need not be all
 _SEARCHED = 160
 #: a smoother joint is preferred if it lowers the sum of squares by so much of what the best one does
@@ -51,6 +54,22 @@ def _nearly_orthogonal(u: Array, contact: int, degree: int) -> Array:
     return np.asarray(rows / np.sqrt((rows**2).sum(axis=0)))
 
 
+def _local_basis(knots: Array, places: Array, degree: int) -> tuple[NDArray[np.intp], Array]:
+    """The first B-spline that is not 0 at each place, and the values of it and the next ones, shape (degree + 1, n).
+
+    By the recurrence of Cox and de Boor; a sparse matrix of scipy takes more than twice as long to make.
+    """
+    last = np.clip(knots.searchsorted(places, side="right") - 1, degree, len(knots) - degree - 2)
+    before = [places - knots[last - i] for i in range(degree)]
+    behind = [knots[last + 1 + i] - places for i in range(degree)]
+    values: list[Array] = [np.ones(len(places))]
+    for order in range(1, degree + 1):
+        shares = [values[i] / (behind[i] + before[order - 1 - i]) for i in range(order)]
+        inner = (before[order - i] * shares[i - 1] + behind[i] * shares[i] for i in range(1, order))
+        values = [behind[0] * shares[0], *inner, before[0] * shares[-1]]
+    return last - degree, np.array(values)
+
+
 def _condensed(knots: Array, places: Array, heights: Array, weights: Array, degree: int) -> Array:
     """Few equations for the coefficients of a spline, with right sides, whose squares sum up as those of all rows do.
 
@@ -58,15 +77,15 @@ def _condensed(knots: Array, places: Array, heights: Array, weights: Array, degr
     too many of them do.
     """
     width, count = degree + 1, len(knots) - degree - 1
-    matrix = BSpline.design_matrix(places, knots, degree)
-    first, at = matrix.indices[::width], np.arange(len(places))
+    first, values = _local_basis(knots, places, degree)
+    at = np.arange(len(places))
     begun = np.flatnonzero(np.diff(first, prepend=-1))
     since = at - np.repeat(begun, np.diff(begun, append=len(places)))
     starts = np.flatnonzero(since % (_DENSE // (width + 1)) == 0)
     counts, firsts = np.diff(starts, append=len(places)), first[starts]
     block = np.repeat(np.arange(len(starts)), counts)
     blocks = np.zeros((len(starts), max(counts.max(initial=0), width + 1), width + 1))
-    blocks[block, at - starts[block]] = np.column_stack([matrix.data.reshape(-1, width), heights]) * weights[:, None]
+    blocks[block, at - starts[block]] = (np.vstack([values, heights]) * weights).T
     factors: Array = np.asarray(np.linalg.qr(blocks, mode="r"))
     few = np.zeros((len(firsts), width + 1, count + 1))
     columns = np.column_stack([firsts[:, None] + np.arange(width), np.full(len(firsts), count)])
@@ -130,6 +149,8 @@ class LeastSquares:
             return squares, parameters, None
         factor = turned @ np.linalg.inv(r[:free, :free])
         spline = BSpline(knots, coefficients + factor @ r[:free, free], self.degree)
+        if np.ptp(spline(knots[:-1, None] + np.diff(knots)[:, None] * _LOOKED_AT)) > _SWINGING * np.ptp(self.y):
+            return np.inf, parameters, None
         if self.advance is not None and self.continuity < 2:
             joints = (Joint(start, self.continuity), *joints, Joint(stop, self.continuity))
         first, last = ((Joint(at, 0),) * corner for at, corner in zip((start, stop), self.corners, strict=True))

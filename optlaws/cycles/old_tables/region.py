@@ -41,6 +41,8 @@ _FEWEST_OF_LAW = 6
 _FAR, _FEW = 6.0, 0.04
 #: standard deviations of most rows about a spline that is no model of these
 _NO_MODEL = 2.0
+#: of its parameters: with fewer rows a spline that explains them not is farther off the motion than what meets them
+_ROWS_OF_NO_MODEL = 4
 #: rows that are looked at beside one, at least
 _FEWEST_BESIDE = 4
 #: of a row far off a spline, by which those beside it may be off
@@ -173,7 +175,7 @@ class Region:
             fits = self._fits(SIMPLE if plain else None)
             if plain or not fits or not self._left_out_beside(fits[0]):
                 break
-        if fits and len(self.x) < 2 * fits[0].free and fits[0].variance > UNRESOLVED:
+        if fits and fits[0].variance > UNRESOLVED and self._rows_in(fits[0]) < _ROWS_OF_NO_MODEL * fits[0].free:
             fits = ()
         if chains and (self._explains(chains[0], fits[0]) if fits else plain):
             return Parts(list(self._of_chain(chains, fits)), chains[0].squares, chains[0].free, self.far)
@@ -182,6 +184,9 @@ class Region:
         near = [name for name in chains[0].names if name] if chains else [""] * (len(places) - 1)
         squares, free = (fits[0].squares, fits[0].free) if fits else (0.0, len(self.x))
         return Parts(list(self._of_fits(fits, places, near)), squares, free, self.far)
+
+    def _rows_in(self, fit: CurveFit) -> int:
+        return int(((self.x > fit.start) & (self.x < fit.stop)).sum())
 
     def _lines(self) -> list[Line]:
         lines = lines_of(self.samples, self.first, self.last)
