@@ -246,6 +246,8 @@ def test_files_that_hold_no_law_say_why(tmp_path: Path) -> None:
     for text, printed in {
         "": "holds no points",
         "angle,lift\n": "holds no points",
+        "0.0\n1.0\n2.0\n": "holds no points.*: line 2 has one number alone",
+        "0°30' 0.0\n1°30' 0.1\n2°30' 0.3\n": 'holds no points.*: line 2: write "1°30\'" in decimal degrees',
         "0,0\n1,2\nx,3\n": "line 3: a point is two numbers, got 'x, 3'; mend the line, or put # before it",
         "0,0\n1\n": "line 2: a point is two numbers",
         f"{rise}total,8\n": "line 9: a point is two numbers, got 'total, 8'",

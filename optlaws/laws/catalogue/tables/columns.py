@@ -205,12 +205,22 @@ def _lines_of(content: str, name: str) -> tuple[list[_Line], list[str]]:
     lines = [_Line(number, cells_of(line, separator)) for number, line in texts]
     first = next((i for i, line in enumerate(lines) if len(line.numeric) > 1), None)
     if first is None:
-        grouped = (no_number(cell) for line in lines for cell in line.cells)
-        reason = next((f": {text}" for text in grouped if "thousands" in text), "")
-        raise InputError(
-            f"{name} holds no points: lines of a time or an angle and a displacement, such as 7.5,0.0959{reason}"
-        )
+        form = "lines of a time or an angle and a displacement, such as 7.5,0.0959"
+        raise InputError(f"{name} holds no points: {form}{_no_points(lines)}")
     return lines[first:], lines[first - 1].cells if first else []
+
+
+def _no_points(lines: Sequence[_Line]) -> str:
+    """Why lines are no points, of one that is as most of them are, where it can be said."""
+    grouped = (no_number(cell) for line in lines for cell in line.cells)
+    reason = next((text for text in grouped if "thousands" in text), "")
+    line = lines[len(lines) // 2] if lines else _Line(0, [])
+    if not reason and len(line.numeric) == len(line.cells) == 1:
+        reason = f"line {line.number} has one number alone"
+    angle = re.search(r"\d+°\s*\d\S*", " ".join(line.cells))
+    if not reason and angle:
+        reason = f"line {line.number}: write {shortened(angle[0])} in decimal degrees"
+    return f": {reason}" if reason else ""
 
 
 def _fit(cells: list[str]) -> int:
