@@ -122,7 +122,9 @@ class OldTable:
             left = {
                 self.reason_in_words(part): None for part in self.moves if part.solution is not None and part.reason
             }
-            remedy = joined("; ", left) if left else "modernise it within a tolerance, which takes corners away"
+            remedy = "modernise it within a tolerance, which takes corners away"
+            if any(part.solution is not None for part in self.moves):
+                remedy = joined("; ", left) if left else "a greater tolerance may take corners away"
             raise InputError(
                 f"the velocity jumps at {self._named(self.corners)}, and that of a cycle does not: {remedy}"
             )
