@@ -383,7 +383,7 @@ def test_laws_of_least_power_count_the_spring_that_they_need(tmp_path: Path, mon
     text = STARTERS["cam"].text(numbers, tmp_path / "cam.toml").replace("animation = true", "")
     text = re.sub(r'(mass = "3 kg").* }', r"\1 }", text)
     text += '[spring]\nspeeds = ["0 rpm", "180 rpm"]\npreload = "20 N"\n'
-    page, reply, _ = done(tmp_path, text.replace("degree = 15", "degree = 7"))
+    page, reply, _ = done(tmp_path, text.replace("degree = 15", "degree = 9"))
     assert relaxed.call_count == 2  # one for each motion
     drive = reply["cam"]["motion"]["drive"]
     assert drive["preload"] == "20 N"
