@@ -20,7 +20,7 @@ SIMPLE = 6
 UNRESOLVED = 9.0
 #: numbers of pieces that are tried
 _PIECES = (1, 2, 3, 4, 5, 6, 8, 10, 13, 17, 22, 29, 38, 50)
-#: rows for each coefficient at least
+#: rows for each free coefficient at least
 _ROWS_EACH = 1.6
 #: numbers of pieces between which a joint is looked for
 _COARSE = (1, 2, 4)
@@ -213,8 +213,8 @@ class _Search:
             if pieces < min(fewest, _ENDS_BY) - 1:
                 continue
             # rows of the rests tell nothing of the pieces between them
-            coefficients = pieces + DEGREE + (DEGREE - 1) * len(joints)
-            if pieces > self.most or (pieces > 1 and coefficients * _ROWS_EACH > self._rows_between(at)):
+            free = pieces + DEGREE + (DEGREE - 1) * len(joints) - self.fitter.fixed
+            if pieces > self.most or (pieces > 1 and free * _ROWS_EACH > self._rows_between(at)):
                 break
             if pieces <= _ENDS_BY:
                 at = min({at, starts.get(pieces, at)}, key=partial(self._squares, joints, pieces))
@@ -248,7 +248,8 @@ class _Search:
         for contact in _CONTACTS if at_rests else ():
             fits = []
             for degree in _DEGREES:
-                if degree * _ROWS_EACH > self._rows_between(at) or degree > self.most + DEGREE:
+                free = degree + 1 - 2 * contact
+                if free * _ROWS_EACH > self._rows_between(at) or degree > self.most + DEGREE:
                     break
                 fitter = replace(self.fitter, degree=degree, contact=contact)
                 at = fitter.polynomial_ends(at)

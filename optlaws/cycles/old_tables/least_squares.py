@@ -287,12 +287,23 @@ class LeastSquares:
         most = max(gain for gain, _ in candidates)
         return next(joint for gain, joint in candidates if gain >= _AS_GOOD * most)
 
+    @property
+    def _contacts(self) -> tuple[int, int]:
+        first, last = self.corners
+        return 1 if first else self.contact, 1 if last else self.contact
+
+    @property
+    def fixed(self) -> int:
+        """The number of coefficients that lines at its ends, or its seam, tell."""
+        if self.advance is not None:
+            return self.continuity + 1
+        return sum(n for end, n in zip(self.ends, self._contacts, strict=True) if end.line is not None)
+
     def _known(self, knots: Array) -> tuple[Array, Array]:
         """A matrix and a vector that make all coefficients of a spline out of those that its ends leave free."""
         count, degree = len(knots) - self.degree - 1, self.degree
         coefficients, fixed = np.zeros(count), np.zeros(count, dtype=bool)
-        contacts = [1 if corner else self.contact for corner in self.corners]
-        for end, first, contact in zip(self.ends, (0, count - contacts[1]), contacts, strict=True):
+        for end, first, contact in zip(self.ends, (0, count - self._contacts[1]), self._contacts, strict=True):
             if end.line is not None:
                 # the coefficients of a straight line are its positions at the means of knots
                 means = np.convolve(knots[first + 1 : first + contact + degree], np.full(degree, 1.0 / degree), "valid")

@@ -42,7 +42,7 @@ _FAR, _FEW = 6.0, 0.04
 #: standard deviations of most rows about a spline that is no model of these
 _NO_MODEL = 2.0
 #: of its parameters: with fewer rows a spline that explains them not is farther off the motion than what meets them
-_ROWS_OF_NO_MODEL = 4
+_ROWS_OF_NO_MODEL = 2
 #: rows that are looked at beside one, at least
 _FEWEST_BESIDE = 4
 #: of a row far off a spline, by which those beside it may be off
