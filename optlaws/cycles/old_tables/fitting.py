@@ -380,11 +380,22 @@ class _Search:
         return joints, fits
 
     def accepted(self, family: Sequence[CurveFit]) -> list[CurveFit]:
-        """The likeliest model, and those with more pieces that are looked at beside it."""
+        """The likeliest model, and those with more pieces or degrees that are looked at beside it."""
         if not family:
             return []
         place = family.index(self.best(family))
-        return list(family[place : place + 1 + _FINER])
+        fits = list(family[place : place + 1 + _FINER])
+        while len(fits) <= _FINER:  # rows that are too few to make them likelier do not exclude them
+            last = fits[-1]
+            pieces = next((count for count in _PIECES if count > last.pieces), 0)
+            fitter, joints = self.fitter, [joint for joint in last.joints if last.start < joint.place < last.stop]
+            if last.degree != DEGREE:
+                fitter, pieces = replace(fitter, degree=last.degree + 2, contact=last.contact), 1
+            fit = fitter.solved(last.start, last.stop, joints, pieces, whole=True)[2] if pieces else None
+            if fit is None:
+                break
+            fits.append(fit)
+        return fits
 
 
 def _turns(fit: CurveFit) -> list[float]:
