@@ -772,3 +772,25 @@ def test_short_parabolas_between_rests_and_ramps_begin_and_end_where_they_do(see
     peak = law_of_move(blend).constants.C.value * abs(blend.stroke) / (blend.stop - blend.start) ** 2
     assert peak == pytest.approx(speed / 4.0, rel=0.25)
     assert blend.peaks[1].holds(speed / 4.0)
+
+
+def test_waves_of_a_ground_cam_are_said_and_counted_in_its_greatest_values() -> None:
+    """They are less than the noise, but all over the turn: the upper end of the acceleration was 16 % too low."""
+    x = np.linspace(0.0, 360.0, 721)
+    rise = np.clip((x - 40.0) / 110.0, 0.0, 1.0)
+    back = np.clip((x - 210.0) / 120.0, 0.0, 1.0)
+    law, number = catalogue["modified sine"].law, np.radians(30.0)
+    exact = 12.0 * (law(rise) - law(back)) + 3e-3 * np.sin(number * x)
+    table = split_table(x, np.round(exact + np.random.default_rng(1).normal(0.0, 5e-3, 721), 4), digit=1e-4)
+    fine = np.linspace(0.0, 360.0, 36001)
+    bends = sum(
+        sign
+        * 12.0
+        * law(np.clip((fine - start) / long, 0.0, 1.0), 2)
+        / long**2
+        * (np.abs(2 * (fine - start) / long - 1) < 1)
+        for sign, start, long in ((1.0, 40.0, 110.0), (-1.0, 210.0, 120.0))
+    )
+    truth = np.abs(bends - 3e-3 * number**2 * np.sin(number * fine)).max()
+    assert table.peaks[1].holds(truth)
+    assert any("waves of 0.003" in each and "30 over the rows" in each for each in table.remarks)

@@ -25,6 +25,7 @@ from optlaws.cycles.old_tables.samples import samples_of
 from optlaws.cycles.old_tables.stated_functions import stretches_of_pieces
 from optlaws.cycles.old_tables.stretches import seam_of, stretches_of
 from optlaws.cycles.old_tables.table import OldTable
+from optlaws.cycles.old_tables.waves import waves_of, with_waves
 from optlaws.errors import InputError, located
 from optlaws.files import reading
 from optlaws.laws.catalogue.tables.columns import LARGEST_TABLE
@@ -285,4 +286,6 @@ def split_table(
     left_out = motion.samples.suspects[given] | (samples.heights[given] != heights)
     far = left_out & (np.abs(table.at(table.places) - heights) > room)
     table = replace(table, outliers=tuple(np.flatnonzero(far).tolist()))
+    if waves := waves_of(table.places[~left_out], (heights - table.at(table.places))[~left_out], scatter):
+        table = replace(table, stretches=tuple(with_waves(table.stretches, waves)))
     return _repeated(table, lobes)

@@ -18,12 +18,13 @@ from optlaws.cycles.old_tables.frame import (
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.samples import gaps_of, unit_of_rounding
 from optlaws.cycles.old_tables.stretches import Stretch, corners_of, law_of_move, position
+from optlaws.cycles.old_tables.waves import waves_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, Rise
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import QUANTITIES, Exact
 from optlaws.numbers import Array, NumberOrQuantity, positive
-from optlaws.sentences import Amount, joined, sentence
+from optlaws.sentences import Amount, Sentence, joined, sentence
 from optlaws.tolerances import AGREEMENT
 
 _TIMES = {"s", "ms"}
@@ -362,6 +363,7 @@ class OldTable:
             )
         if self.peaks:
             remarks.append(sentence("greatest {}", joined(", ", map(self.peak_in_words, (1, 2, 3)))))
+        remarks += self._waves_in_words()
         if self.corners:
             remarks.append(sentence("the velocity jumps at {}, as far as the points tell", self._named(self.corners)))
         if self.outliers:
@@ -375,6 +377,18 @@ class OldTable:
         if self.seam:
             remarks.append(sentence("the last position is {} from the first one", Amount(self.seam, self.unit, 3)))
         return tuple(remarks)
+
+    def _waves_in_words(self) -> list[Sentence]:
+        """The greatest wave about the old motion, in no word or some."""
+        if any(part.solution is not None for part in self.stretches):
+            return []
+        known = np.delete(np.arange(len(self.places)), list(self.outliers))
+        waves = waves_of(self.places[known], (self.heights - self.at(self.places))[known], self.scatter)
+        words = "the points show waves of {}, {} over the rows, and these values count them"
+        turn = float(np.ptp(self.places)) / (2.0 * np.pi)
+        return [
+            sentence(words, Amount(size, self.unit, 2), round(number * turn)) for size, number in sorted(waves)[-1:]
+        ]
 
     def _named(self, places: Sequence[float]) -> str:
         named, more = joined(", ", [Amount(x, self.master) for x in places[:_MOST_NAMED]]), len(places) - _MOST_NAMED
