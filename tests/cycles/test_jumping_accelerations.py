@@ -7,6 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from optlaws import split_table
+from tests.cycles.simulated_cams import simulated_cam
 
 Array = NDArray[np.float64]
 
@@ -77,3 +78,18 @@ def test_rows_that_are_swapped_do_not_bend_the_motion(row: int) -> None:
     y = np.round(motion(x) + np.random.default_rng(1).normal(0.0, 5e-3, len(x)), 4)
     y[[row, row + 1]] = y[[row + 1, row]]
     assert np.abs(split_table(x, y, digit=1e-4).at(fine) - motion(fine)).max() < 0.3
+
+
+def test_lines_that_end_in_one_row_without_a_corner_are_read() -> None:
+    """No spline goes through one row between lines; one was looked for, and scipy raised an IndexError."""
+    cam = simulated_cam(419)
+    assert not split_table(cam.places, cam.heights, digit=cam.digit if cam.digit > 1e-9 else 0.0).peaks[1].is_known
+
+
+def test_corners_are_none_where_a_fit_goes_through_all_of_few_rows() -> None:
+    """Blends of six rows between lines and rests had five corners."""
+    motion = parabolas_and_lines(0.4, 0.4)
+    x, fine = np.arange(0.0, 361.5, 3.0), np.linspace(0.0, 360.0, 7201)
+    table = split_table(x, np.round(motion(x), 4))
+    assert table.corners == ()
+    assert np.abs(table.at(fine) - motion(fine)).max() < 2e-3

@@ -286,6 +286,8 @@ class _Search:
 
     def evident_corners(self, fit: CurveFit) -> tuple[bool, bool]:
         """Where a fit leaves lines or rests at corners, not where a line might end by more than is looked at."""
+        if fit.free * _ROWS_EACH > self._rows_between((fit.start, fit.stop)):
+            return False, False  # it goes through the rows, whatever these are
         (before, after), changes = self.fitter.ends, fit.changes()
         near = self.fitter.fine * float(np.median(np.diff(self.fitter.x)))
         return changes[0] and bool(fit.start > before.low + near), changes[1] and bool(fit.stop < after.high - near)

@@ -175,7 +175,7 @@ class Region:
             fits = self._fits(SIMPLE if plain else None)
             if plain or not fits or not self._left_out_beside(fits[0]):
                 break
-        if fits and fits[0].variance > UNRESOLVED and self._rows_in(fits[0]) < _ROWS_OF_NO_MODEL * fits[0].free:
+        if fits and self._tells_nothing(fits[0]):
             fits = ()
         if chains and (self._explains(chains[0], fits[0]) if fits else plain):
             return Parts(list(self._of_chain(chains, fits)), chains[0].squares, chains[0].free, self.far)
@@ -185,8 +185,11 @@ class Region:
         squares, free = (fits[0].squares, fits[0].free) if fits else (0.0, len(self.x))
         return Parts(list(self._of_fits(fits, places, near)), squares, free, self.far)
 
-    def _rows_in(self, fit: CurveFit) -> int:
-        return int(((self.x > fit.start) & (self.x < fit.stop)).sum())
+    def _tells_nothing(self, fit: CurveFit) -> bool:
+        """Whether a fit is no model of its rows, which are few."""
+        rows = int(((self.x > fit.start) & (self.x < fit.stop)).sum())
+        unresolved = self.rows > _FEWEST_MOVING and fit.variance > UNRESOLVED
+        return unresolved and rows < _ROWS_OF_NO_MODEL * fit.free
 
     def _lines(self) -> list[Line]:
         lines = lines_of(self.samples, self.first, self.last)
