@@ -4,7 +4,8 @@ At the optimum a few contacts carry the whole program: points where a constraint
 residual. Unknown are the variables x, the free positions u and the multipliers. The system is square, so convergence
 is quadratic, and fewer contacts than variables are no difficulty (the curvature of the contacts closes it).
 
-Near the optimum contacts that meet are one, and those that came to an end stay there; the last steps begin so.
+What is near the optimum is rounded to few digits, and the last steps begin there: from whatever guess an optimum was
+met, its last digit is the same.
 
 Of an integral with kinks the places of these are unknowns too, each a root of the formula that changes its sign there:
 as a function of the law alone the integral bends without bound where two kinks are about to vanish, as a function of
@@ -19,15 +20,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optlaws.formulas.tree import Formula
-from optlaws.numbers import Array
+from optlaws.numbers import Array, power_of_two
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.families.kinked import AtKinks, FreeKinks, KinkedIntegralFamily, SmoothStretch
 from optlaws.tolerances import AT_END, DEPENDENT_ROWS, SAME_PLACE
 
 _NEWTON_CONVERGED = 1e-13  # of a law: a step of Newton's method that is the last
-_NEWTON_NEAR = 1e-7  # of a law: after a step that changes less contacts that meet are merged
-_NEWTON_SAME = 1e-5  # of a law: nearer than this a state and what it is led to with merged contacts are one optimum
+_NEWTON_NEAR = 1e-7  # of a law: after a step that changes less a state is rounded
+_NEWTON_SAME = 1e-5  # of a law: nearer than this a state and what it is led to after rounding are one optimum
 _NEWTON_STALLED = 1e-10  # of a law: steps below it that shrink no more are rounding
 _NEWTON_FULFILLED = 1e-9  # of a right side: by so much the equations of Newton's method may be missed
 _NEWTON_STILL = 1e-6  # of a law: a step that is longer wanders
@@ -38,6 +39,8 @@ _STEPS_WITH_KINKS = 40
 _STRETCH_LEFT = 0.2
 _FAR = 1.05
 _WILD = 1e6
+#: of a state that is rounded, of 1 or of the greatest number
+_DIGITS = 2.0**20
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +91,7 @@ def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> Ac
     near, integrals = _iterated(program, start, integrals, enough=_NEWTON_NEAR)
     if near is None:
         return None
-    optimum, moved = _iterated(program, _merged(program, near), integrals)
+    optimum, moved = _iterated(program, _rounded(program, near), integrals)
     if optimum is None or np.abs(near.x - optimum.x).max() > _NEWTON_SAME * max(1.0, np.abs(near.x).max()):
         optimum, moved = _iterated(program, near, integrals)
     return optimum if optimum is not None and _have_all_kinks(optimum.x, moved) else None
@@ -161,14 +164,32 @@ def _with_moved_kinks(integrals: _Integrals, step: Array) -> tuple[float, _Integ
     }
 
 
-def _merged(program: Program, state: ActiveSet) -> ActiveSet:
-    """The state with contacts that meet as one; a contact that may move, but came to an end, stays there."""
+def _rounded(program: Program, state: ActiveSet) -> ActiveSet:
+    """The state with few digits of all that Newton's method moves, its contacts in order, each once and at rest.
+
+    A contact that may move, but came to an end, stays there.
+    """
     state = state.merged(SAME_PLACE)
-    u, free = state.u, state.free
-    for end in np.array([program.families[i].domain for i in state.family]).reshape(-1, 2).T:
+    order = np.lexsort((state.s, state.u, state.family))
+    u, family, free = state.u[order], state.family[order], state.free[order]
+    for end in np.array([program.families[i].domain for i in family]).reshape(-1, 2).T:
         at_end = free & (np.abs(u - end) < AT_END)
         u, free = np.where(at_end, end, u), free & ~at_end
-    return replace(state, u=u, free=free)
+    multipliers = _with_few_digits(np.concatenate([state.multipliers[order], state.equality_multipliers]))
+    return ActiveSet(
+        x=_with_few_digits(state.x),
+        family=family,
+        u=np.where(free, np.round(u * _DIGITS) / _DIGITS, u),
+        s=state.s[order],
+        free=free,
+        multipliers=multipliers[: len(u)],
+        equality_multipliers=multipliers[len(u) :],
+    )
+
+
+def _with_few_digits(numbers: Array) -> Array:
+    grid = _DIGITS / power_of_two(float(np.abs(numbers).max(initial=1.0)))
+    return np.asarray(np.round(numbers * grid) / grid)
 
 
 def _conditions(program: Program, state: ActiveSet, integrals: _Integrals) -> tuple[Array, Array]:
