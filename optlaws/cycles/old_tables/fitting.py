@@ -103,10 +103,10 @@ def fits_of(
     explaining = plain if plain and likely(rough.best(plain).squares, rough.rows) else []
     few = bool(explaining) and rough.best(plain).degree <= _FEW_DEGREES
     joints: tuple[Joint, ...] = ()
-    if smooth is None and not few:
-        joints, fits = rough.jointed(fits)
     smoothly = rough, joints, fits
     if smooth is None and not few:
+        joints, fits = rough.jointed(fits)
+        smoothly = rough, joints, fits
         rough, joints, fits = rough.with_corners(joints, fits)
     if explaining and rough.criterion(rough.best(plain)) < rough.criterion(rough.best(fits)):
         refined = [_refined(fitter, fit) for fit in rough.accepted(polynomials)]
@@ -214,7 +214,7 @@ class _Search:
                 continue
             # rows of the rests tell nothing of the pieces between them
             free = pieces + DEGREE + (DEGREE - 1) * len(joints) - self.fitter.fixed
-            if pieces > self.most or (pieces > 1 and free * _ROWS_EACH > self._rows_between(at)):
+            if pieces > self.most or (pieces > 1 and not self._tell(free, at)):
                 break
             if pieces <= _ENDS_BY:
                 at = min({at, starts.get(pieces, at)}, key=partial(self._squares, joints, pieces))
@@ -234,9 +234,10 @@ class _Search:
                 break
         return fits
 
-    def _rows_between(self, at: tuple[float, float]) -> int:
+    def _tell(self, free: int, at: tuple[float, float]) -> bool:
+        """Whether the rows between two places are enough for so many free coefficients."""
         first, last = self.fitter.x.searchsorted(at).tolist()
-        return int(last - first)
+        return bool(free * _ROWS_EACH <= last - first)
 
     def _squares(self, joints: Sequence[Joint], pieces: int, at: tuple[float, float]) -> float:
         return self.fitter.solved(*at, joints, pieces)[0]
@@ -248,10 +249,9 @@ class _Search:
         for contact in _CONTACTS if at_rests else ():
             fits = []
             for degree in _DEGREES:
-                free = degree + 1 - 2 * contact
-                if free * _ROWS_EACH > self._rows_between(at) or degree > self.most + DEGREE:
-                    break
                 fitter = replace(self.fitter, degree=degree, contact=contact)
+                if not self._tell(degree + 1 - fitter.fixed, at) or degree > self.most + DEGREE:
+                    break
                 at = fitter.polynomial_ends(at)
                 fit = fitter.solved(*at, (), 1, whole=True)[2]
                 fits += [] if fit is None else [fit]
@@ -286,7 +286,7 @@ class _Search:
 
     def evident_corners(self, fit: CurveFit) -> tuple[bool, bool]:
         """Where a fit leaves lines or rests at corners, not where a line might end by more than is looked at."""
-        if fit.free * _ROWS_EACH > self._rows_between((fit.start, fit.stop)):
+        if not self._tell(fit.free, (fit.start, fit.stop)):
             return False, False  # it goes through the rows, whatever these are
         (before, after), changes = self.fitter.ends, fit.changes()
         near = self.fitter.fine * float(np.median(np.diff(self.fitter.x)))

@@ -487,8 +487,8 @@ def _spread_columns(weights: Array, rows: Sequence[int]) -> Array:
 def off_both_sides(places: Array, heights: Array, row: int, sign: float, noise: float) -> float:
     """By how much a point is above where both sides of it go on, or below with the sign -1.
 
-    At a joint or a corner a point is where one side goes on; one that is far off is so for both sides. Where these are
-    near no polynomial, it is so if they are all nearer to theirs.
+    At a joint or a corner a point is where one side goes on; one that is far off is so for both sides. Where the rows
+    of a side are near no polynomial of these degrees, they tell nothing less than they are off the last one.
     """
     off = 0.0
     for degree in _DEGREES_BESIDE:

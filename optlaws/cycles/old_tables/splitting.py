@@ -286,6 +286,6 @@ def split_table(
     left_out = motion.samples.suspects[given] | (samples.heights[given] != heights)
     far = left_out & (np.abs(table.at(table.places) - heights) > room)
     table = replace(table, outliers=tuple(np.flatnonzero(far).tolist()))
-    if waves := waves_of(table.places[~left_out], (heights - table.at(table.places))[~left_out], scatter):
-        table = replace(table, stretches=tuple(with_waves(table.stretches, waves)))
+    waves = waves_of(table.places[~left_out], (heights - table.at(table.places))[~left_out], scatter)
+    table = replace(table, waves=waves, stretches=tuple(with_waves(table.stretches, waves)))
     return _repeated(table, lobes)

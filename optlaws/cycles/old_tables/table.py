@@ -18,7 +18,6 @@ from optlaws.cycles.old_tables.frame import (
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.samples import gaps_of, unit_of_rounding
 from optlaws.cycles.old_tables.stretches import Stretch, corners_of, law_of_move, position
-from optlaws.cycles.old_tables.waves import waves_of
 from optlaws.cycles.specification.segments import CycleSegment, Dwell, Return, Rise
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -61,6 +60,9 @@ class OldTable:
         Indices of points that are far off the motion, as a speck of dust puts them; they are left out.
     whole
         Whether its length is a turn of the cycle, whatever it is: 720 deg of a crank, or 1,500 mm of a web.
+    waves
+        Amplitudes of waves that the points show about the motion, with their numbers by the master in radians; the
+        peaks count them.
 
     Examples
     --------
@@ -84,6 +86,7 @@ class OldTable:
     rate: float | None = None
     outliers: tuple[int, ...] = ()
     whole: bool = False
+    waves: tuple[tuple[float, float], ...] = ()
 
     def cycle(self, *, speed: NumberOrQuantity | None = None, period: NumberOrQuantity | None = None) -> Cycle:
         """The cycle of the table, at a speed or a period; at the speed of the file if neither is given.
@@ -379,16 +382,12 @@ class OldTable:
         return tuple(remarks)
 
     def _waves_in_words(self) -> list[Sentence]:
-        """The greatest wave about the old motion, in no word or some."""
-        if any(part.solution is not None for part in self.stretches):
+        if not self.waves or any(part.solution is not None for part in self.stretches):
             return []
-        known = np.delete(np.arange(len(self.places)), list(self.outliers))
-        waves = waves_of(self.places[known], (self.heights - self.at(self.places))[known], self.scatter)
+        size, number = max(self.waves)
+        count = round(number * float(np.ptp(self.places)) / (2.0 * np.pi))
         words = "the points show waves of {}, {} over the rows, and these values count them"
-        turn = float(np.ptp(self.places)) / (2.0 * np.pi)
-        return [
-            sentence(words, Amount(size, self.unit, 2), round(number * turn)) for size, number in sorted(waves)[-1:]
-        ]
+        return [sentence(words, Amount(size, self.unit, 2), count)]
 
     def _named(self, places: Sequence[float]) -> str:
         named, more = joined(", ", [Amount(x, self.master) for x in places[:_MOST_NAMED]]), len(places) - _MOST_NAMED

@@ -17,7 +17,7 @@ _ROWS_OF_WAVE, _FEWEST_WAVES = 6, 6
 _POWER = 20.0
 
 
-def waves_of(places: Array, residuals: Array, noise: float) -> list[tuple[float, float]]:
+def waves_of(places: Array, residuals: Array, noise: float) -> tuple[tuple[float, float], ...]:
     """The amplitudes and the wave numbers, by the place in radians, of waves in residuals that noise does not explain.
 
     Examples
@@ -32,10 +32,10 @@ def waves_of(places: Array, residuals: Array, noise: float) -> list[tuple[float,
     turn, count = float(np.ptp(places)), len(places)
     numbers = 2.0 * np.pi / turn * np.arange(_FEWEST_WAVES, count // _ROWS_OF_WAVE)
     if noise <= 0.0 or not len(numbers):
-        return []
+        return ()
     powers = np.asarray(lombscargle(places, residuals, numbers)) / noise**2
     far = np.flatnonzero(powers > _POWER)
-    return [(float(2.0 * noise * np.sqrt(powers[i] / count)), float(numbers[i])) for i in far]
+    return tuple((float(2.0 * noise * np.sqrt(powers[i] / count)), float(numbers[i])) for i in far)
 
 
 def with_waves(parts: Sequence[Stretch], waves: Sequence[tuple[float, float]]) -> Iterator[Stretch]:

@@ -211,16 +211,15 @@ def _lines_of(content: str, name: str) -> tuple[list[_Line], list[str]]:
 
 
 def _no_points(lines: Sequence[_Line]) -> str:
-    """Why lines are no points, of one that is as most of them are, where it can be said."""
+    """Why lines are no points, by one in the middle, after a colon; "" where nothing tells."""
     grouped = (no_number(cell) for line in lines for cell in line.cells)
-    reason = next((text for text in grouped if "thousands" in text), "")
+    if thousands := next((text for text in grouped if "thousands" in text), ""):
+        return f": {thousands}"
     line = lines[len(lines) // 2] if lines else _Line(0, [])
-    if not reason and len(line.numeric) == len(line.cells) == 1:
-        reason = f"line {line.number} has one number alone"
+    if len(line.numeric) == len(line.cells) == 1:
+        return f": line {line.number} has one number alone"
     angle = re.search(r"\d+°\s*\d\S*", " ".join(line.cells))
-    if not reason and angle:
-        reason = f"line {line.number}: write {shortened(angle[0])} in decimal degrees"
-    return f": {reason}" if reason else ""
+    return f": line {line.number}: write {shortened(angle[0])} in decimal degrees" if angle else ""
 
 
 def _fit(cells: list[str]) -> int:
