@@ -1,4 +1,4 @@
-"""Random problems of least acceleration, and what a solution of one claims.
+"""What a solution of a problem of least acceleration claims.
 
 Nothing here uses optlaws.synthesis beyond Problem and Solution. Laws are judged by numpy.polynomial on their stored
 Chebyshev series.
@@ -8,7 +8,6 @@ import numpy as np
 from numpy.polynomial import Chebyshev
 from numpy.typing import NDArray
 
-from optlaws import Chebyshev as ChebyshevBasis
 from optlaws import MotionLaw, Problem, Solution
 from optlaws.synthesis import PolynomialBasis
 
@@ -16,20 +15,6 @@ Array = NDArray[np.float64]
 
 UNIT = (0.0, 1.0)
 DENSE = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 4001))
-
-
-def random_problems(seed: int, count: int, degrees: tuple[int, int] = (3, 21)) -> list[Problem]:
-    """Problems of order 2 to 6 with B from 1.1 to 3, monotone where a coin says so."""
-    numbers = np.random.default_rng(seed)
-    return [
-        Problem(
-            B=round(float(numbers.uniform(1.1, 3.0)), 6),
-            order=int(numbers.integers(2, 7)),
-            basis=ChebyshevBasis(int(numbers.integers(degrees[0], degrees[1] + 1))),
-            monotone=bool(numbers.integers(2)),
-        )
-        for _ in range(count)
-    ]
 
 
 def polynomial(problem: Problem) -> PolynomialBasis:
