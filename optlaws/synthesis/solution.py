@@ -186,7 +186,7 @@ class Solution(LawExport, JsonText):
             rows.append(Row("best possible", self.best_possible, note=laws))
         if self.drive_limit is not None:
             laws = "no law that never turns back is below it, whatever its order and degree"
-            if self.drive_limit.plane.velocities:
+            if self.drive_limit.plane.within_jerk:
                 laws = "no law from order 3 on within this jerk that never turns back is below it, whatever its degree"
             rows.append(Row("best possible", self.drive_limit.value, note=laws))
             if self.drive_limit.value > 0.0:

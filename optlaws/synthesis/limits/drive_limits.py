@@ -28,7 +28,7 @@ from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
 from optlaws.synthesis.limits.phase_plane_bound import Guess, Potential, even_price, proven_bound
 from optlaws.synthesis.limits.phase_plane_program import PhaseOptimum, optimum
 from optlaws.synthesis.limits.phase_torque import AnyTorque, torque_of
-from optlaws.synthesis.limits.plane_of_problem import DriveObjective, plane_of, within_ramps
+from optlaws.synthesis.limits.plane_of_problem import DriveObjective, plane_of, within_jerk
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.tolerances import INTEGRATION, STATED_BOUND
 
@@ -111,7 +111,7 @@ class DriveLimit(Declared, title="a drive's limit"):
         known = plane_of(problem)
         if known is None or known[1:] != (self.minimise, self.unit):
             return False
-        return self.plane in [known[0], *within_ramps(known[0], problem)]
+        return self.plane in [known[0], *within_jerk(known[0], problem)]
 
     def velocity(self, a: Any) -> Array:
         """The velocity of the best motion at positions, dimensionless.
@@ -264,10 +264,10 @@ def planes_of_proof(plane: PhasePlane, limit: DriveLimit) -> list[PhasePlane]:
 
 
 def _without_limits(plane: PhasePlane) -> Iterator[tuple[TorqueLimit, PhasePlane]]:
-    """The limits of torques in the whole stroke, and planes of LONG times the time in which these have a least peak."""
+    """Greatest torques in the whole stroke, and planes of LONG times the time in which these have a least peak."""
     slow = replace(plane, limits=()).slowed(LONG)
     for limit in plane.limits:
-        if limit.everywhere and not limit.side:
+        if limit.everywhere and not limit.side and limit.fall >= 0.0:
             yield limit, replace(slow, peak=limit.torque.slowed(LONG))
 
 
@@ -498,13 +498,11 @@ def limit_beside(problem: Problem) -> DriveLimit | None:
         best = _cached(*known)
     except (InputError, InfeasibleProblem, SolverFailure):
         return None  # nothing is known then
-    for plane in within_ramps(known[0], problem):
+    for plane in within_jerk(known[0], problem):
         with suppress(InputError, InfeasibleProblem, SolverFailure):
-            ramped = _cached_once(plane, *known[1:])
-            best = max(best, ramped, key=_proves)
-            # no more is proven by other ramps
-            if ramped.gap < _MOST_PHASE_GAP or ramped.attained < best.value * (1.0 + _MOST_PHASE_GAP):
-                break
+            within = _cached_once(plane, *known[1:])
+            if within.value > best.value:
+                return within
     return best
 
 
@@ -515,6 +513,6 @@ def _cached(plane: PhasePlane, minimise: DriveObjective, unit: float) -> DriveLi
 
 @lru_cache(maxsize=64)
 def _cached_once(plane: PhasePlane, minimise: DriveObjective, unit: float) -> DriveLimit:
-    """The limit on the first elements: finer ones add little between steps of bounds."""
+    """The limit on the first elements: finer ones add little where so many bounds count."""
     standing = Standing(plane, standing_level(plane))
     return _limit(standing, minimise, unit, optimum(standing))

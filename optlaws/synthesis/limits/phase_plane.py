@@ -190,6 +190,11 @@ class PhasePlane(Declared, title="a phase plane"):
         return (*limits, *([TorqueLimit(ACCELERATION, self.C)] if inf > self.C else []))
 
     @property
+    def within_jerk(self) -> bool:
+        """Whether bounds rise with the velocity, as those of the acceleration do that a bound of the jerk implies."""
+        return any(limit.fall < 0.0 for limit in self.limits)
+
+    @property
     def greatest_velocity(self) -> float:
         """A velocity that no motion within the bounds exceeds: to reach it and stop takes less than the stroke."""
         return min(self.B, nextafter(sqrt(self.C), inf)) if inf > self.C else self.B

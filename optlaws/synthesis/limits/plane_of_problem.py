@@ -12,8 +12,8 @@ from optlaws.errors import InputError
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, Product, Sum, product
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, OfFormula
-from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
-from optlaws.synthesis.limits.phase_torque import AnyTorque, PhaseTorque, greater_power, torque_of
+from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
+from optlaws.synthesis.limits.phase_torque import ACCELERATION, AnyTorque, PhaseTorque, greater_power, torque_of
 
 if TYPE_CHECKING:
     from optlaws.synthesis.problem.problem import Problem
@@ -21,27 +21,29 @@ if TYPE_CHECKING:
 #: what a drive is to take as little of
 DriveObjective: TypeAlias = Literal["peak torque", "rms torque", "energy", "time"]
 
-#: the acceleration up to which ramps of the jerk are followed; how many bounds they have, at which shares of its time
-_RAMP, _RAMPS = 9.0, ((16, 0.88), (8, 0.8))
-_SMOOTH, _SHORT, _ABOVE = 3, 0.3, 1e-14  # the least order of ramps, their longest time, and what rounding may add
+#: from which acceleration to which bounds are taken that the jerk implies, and how many: of fewer and weaker ones less
+#: is proven, but more often
+_TANGENTS = ((1.2, 12.0, 5), (1.6, 14.0, 4))
+_SMOOTH, _ABOVE = 3, 1e-14  # the least order of laws that begin without acceleration, and what rounding may add
 
 
-def within_ramps(plane: PhasePlane, problem: Problem) -> list[PhasePlane]:
-    """Planes with bounds of the velocity near both ends, which a bound J of the jerk implies of laws from order 3 on.
+def within_jerk(plane: PhasePlane, problem: Problem) -> list[PhasePlane]:
+    """Planes with bounds of the acceleration by the velocity, which the jerk J implies of laws from order 3 on.
 
-    Such a law has no acceleration where it begins. While c > 0, c²/2 rises by no more than J b does, so that c is at
-    most (2 J b)^(1/2), and b, by the position, no more than along the ramp of the jerk J alone: J t²/2 at J t³/6.
+    Such a law has no acceleration at its ends. While c > 0, c² has risen by no more than 2 J b since c was 0, and while
+    c < 0 it still has to fall by as much: |c| <= (2 J b)^(1/2), below its tangents t/2 + J b/t, one for each c = t.
     """
-    jerk, planes = problem.range("J"), list[PhasePlane]()
-    if jerk is None or not 0.0 < jerk.high < inf or problem.order < _SMOOTH or jerk.high * _SHORT < _RAMP:
-        return planes
-    for count, shorter in _RAMPS:
-        most = list[VelocityLimit]()
-        for t in np.cumprod([_RAMP / jerk.high] + [shorter] * (count - 1)).tolist():
-            a, b = jerk.high * t * t * t / 6.0, 0.5 * jerk.high * t * t * (1.0 + _ABOVE)
-            most += [VelocityLimit(0.0, a, b), VelocityLimit(1.0 - a, 1.0, b)]
-        planes.append(replace(plane, velocities=(*plane.velocities, *most)))
-    return planes
+    jerk = problem.range("J")
+    if jerk is None or not 0.0 < jerk.high < inf or problem.order < _SMOOTH:
+        return []
+    return [
+        replace(plane, limits=(*plane.limits, *(_tangent(jerk.high, float(t)) for t in np.geomspace(*several))))
+        for several in _TANGENTS
+    ]
+
+
+def _tangent(jerk: float, at: float) -> TorqueLimit:
+    return TorqueLimit(ACCELERATION, 0.5 * at * (1.0 + _ABOVE), -jerk / at * (1.0 + _ABOVE))
 
 
 def plane_of(problem: Problem) -> tuple[PhasePlane, DriveObjective, float] | None:

@@ -419,7 +419,7 @@ def test_a_bound_of_the_jerk_counts(minimise: Callable[[str], Any]) -> None:
     limit = solution.drive_limit
     assert limit is not None
     assert plain is not None
-    assert 1.05 * plain.value < limit.value < solution.objective
+    assert 1.1 * plain.value < limit.value < solution.objective
     assert solution.lower_bound == limit.value
     assert limit.is_of(solution.problem)
     assert plain.is_of(solution.problem)  # as of files written before
@@ -435,16 +435,20 @@ def test_a_bound_of_the_jerk_counts(minimise: Callable[[str], Any]) -> None:
 
 
 @pytest.mark.parametrize("name", ["cycloidal", "modified sine", "4567", "modified trapezoid"])
-def test_no_law_is_faster_than_the_ramps_of_its_jerk(name: str) -> None:
+def test_no_law_accelerates_more_than_its_jerk_lets_its_velocity(name: str) -> None:
     law = catalogue[name].law
     problem = Problem(order=3, monotone=True, symmetric=False, minimise=rms(LOADED), J=at_most(law.peak(3).value))
     limit = limit_beside(problem)
     assert limit is not None
-    assert limit.plane.velocities
+    assert limit.plane.within_jerk
     k = np.linspace(0.0, 1.0, 20001)
-    a, b = law.a(k), law.b(k)
-    for ramp in limit.plane.velocities:
-        assert b[(a >= ramp.start) & (a <= ramp.stop)].max(initial=0.0) <= ramp.B
+    b, c = law.b(k), law.c(k)
+    for bound in limit.plane.limits:
+        assert np.all(np.abs(c) <= bound.at_rest - bound.fall * b)
+    # and near the ends the bounds are no wider than those of the jerk's own ramp need to be
+    ramp = np.sqrt(2.0 * law.peak(3).value * b)
+    widest = np.min([bound.at_rest - bound.fall * b for bound in limit.plane.limits], axis=0)
+    assert np.all(widest[(b > 0.02) & (b < 1.0)] < 1.25 * ramp[(b > 0.02) & (b < 1.0)])
 
 
 # --- published motions ---
