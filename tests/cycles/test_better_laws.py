@@ -42,12 +42,12 @@ def least_acceleration(old: MotionLaw, share: float, ends: np.ndarray, jerk: flo
 
 
 def two_movers() -> tuple[np.ndarray, np.ndarray]:
-    """The second of two movers on a track of 1,500 mm: it keeps 60 mm in curves and 100 mm on straights."""
-    master = np.arange(0, 1500.1, 5.0)
+    """The second of two movers on a track of 750 mm: it keeps 60 mm in curves and 100 mm on straights."""
+    master = np.arange(0, 750.1, 5.0)
     gap = np.full_like(master, 60.0)
-    for start, step in ((0, 40), (250, -40), (750, 40), (1000, -40)):
+    for start, step in ((0, 40), (250, -40)):
         gap += step * QUINTIC(np.clip((master - start) / 100, 0, 1))
-    return 0.24 * master, master - gap
+    return 0.48 * master, master - gap
 
 
 def test_moves_that_run_on_in_constant_velocity_are_bettered() -> None:
@@ -55,7 +55,7 @@ def test_moves_that_run_on_in_constant_velocity_are_bettered() -> None:
     new = old.bettered(0.2)
     pairs = zip(new.moves, old.moves, strict=True)
     better = [(part, was) for part, was in pairs if part.solution is not None]
-    assert len(better) == 4
+    assert len(better) == 2
     for part, was in better[:1]:
         law, before = law_of_move(part), law_of_move(was)
         share = 0.2 / abs(part.stroke)

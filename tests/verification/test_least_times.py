@@ -75,7 +75,7 @@ def random_moves(numbers: np.random.Generator, count: int) -> list[TimedMove]:
 
 
 def test_the_limit_of_all_laws_is_proven_in_every_unit_and_with_every_limit() -> None:
-    for move in random_moves(np.random.default_rng(3), 400):
+    for move in random_moves(np.random.default_rng(3), 120):
         known, proven = move.best_possible, least_time_of_any_law(move)
         assert (known is None) == (proven is None), move
         assert known is None or float(proven or 0) == pytest.approx(known, rel=1e-13, abs=0.0), move

@@ -318,7 +318,7 @@ def free_pick_and_place(degree: int = 9) -> Axes:
     return Axes(axes, period="1.7 s", interlocks=[Forbidden("x", "z", hill, name="hill")])
 
 
-@pytest.mark.parametrize(("degree", "period"), [(9, 0.6717), (21, 0.6642)])
+@pytest.mark.parametrize(("degree", "period"), [(9, 0.6717), pytest.param(21, 0.6642, marks=pytest.mark.long)])
 def test_two_axes_around_a_hill_overlap(degree: int, period: float) -> None:
     best = free_pick_and_place(degree).fastest()
     times = [least_time(stroke, LIMITS, degree=degree) for stroke in ("300 mm", "80 mm")]

@@ -188,7 +188,7 @@ def monotone_laws() -> list[MotionLaw]:
     st.sampled_from(["peak torque", "rms torque", "energy"]),
     st.sampled_from(monotone_laws()),
 )
-@examples(30)
+@examples(14)
 def test_no_standard_law_beats_the_limit(
     bulge: float, load: float, friction: float, minimise: str, law: MotionLaw
 ) -> None:
@@ -411,7 +411,7 @@ def test_a_bound_of_the_torque_counts() -> None:
     assert limit.value == pytest.approx(drive_limit(LOADED, "rms torque", B=2.2, P=4.5).value, rel=1e-6)
 
 
-@pytest.mark.parametrize("minimise", [rms, peak])
+@pytest.mark.parametrize("minimise", [rms, pytest.param(peak, marks=pytest.mark.long)])
 def test_a_bound_of_the_jerk_counts(minimise: Callable[[str], Any]) -> None:
     """Laws of order 3 begin without acceleration: what they are slower by at their ends costs torque."""
     free = Problem(order=3, basis=Powers(11), symmetric=False, monotone=True, minimise=minimise(LOADED))

@@ -295,7 +295,7 @@ def test_pieces_of_order_1_are_free_to_start_moving() -> None:
     assert synthesize(replace(expected, basis=Pieces(8, 5, 3))).objective < polynomial.objective
 
 
-@pytest.mark.parametrize(("B", "count"), sampled([(1.859, 28), (1.859, 32), (1.859, 64), (2.1, 28), (2.1, 30)], 5))
+@pytest.mark.parametrize(("B", "count"), sampled([(2.1, 20), (1.859, 32), (1.859, 64), (2.1, 30)], 4))
 def test_many_pieces_are_proven(B: float, count: int) -> None:
     coarse, fine = (synthesize(Problem(B=B, order=3, basis=Pieces(n))) for n in (count, 2 * count))
     assert (coarse.status, fine.status) == ("optimal", "optimal")
