@@ -29,7 +29,7 @@ BEGINNING, DESCRIPTION = "state", "about"
 #: what is weaker where it is less
 BOUNDS = {"lower_bound", "best_possible", "bound"}
 #: how many kinds of values of a file are changed each time
-EACH_TIME = 12
+EACH_TIME = 6
 
 
 @cache

@@ -151,7 +151,7 @@ def test_every_law_of_the_catalogue_goes_forwards_to_its_very_ends(name: str, lo
 
 
 @given(cases, gears)
-@examples(120)
+@examples(60)
 def test_torques_and_energies_follow_the_law(case: Case, gear: Gear) -> None:
     agree(case, gear)
 

@@ -112,7 +112,7 @@ def test_sheet_and_formulas_of_a_press(stroke: float) -> None:
     assert np.sign(stroke) * drive.torque(x, v, w) == pytest.approx([by_hand(float(p), 5.0, stroke)[0] for p in at])
 
 
-@pytest.mark.parametrize("efficiency", [1.0, (0.9, 0.8)])
+@pytest.mark.parametrize("efficiency", [1.0, pytest.param((0.9, 0.8), marks=pytest.mark.long)])
 def test_a_gear_without_load_takes_its_torque_against_the_motion(efficiency: Any) -> None:
     """As friction of the motor does, in torques, sheets, bounds and the best ratio; at rest there is none of it."""
     free = Drive(PRESS, MOTOR, ratio=5.0, efficiency=efficiency)

@@ -46,6 +46,12 @@ def test_a_load_that_drives_has_a_bound_by_its_work() -> None:
     bound = least_peak_torque(drive, 0.0, 2.0 * np.pi, 0.8)
     assert bound == pytest.approx(braked, rel=1e-4)
     assert bound > 18.0
+
+
+@pytest.mark.long
+def test_the_phase_plane_has_no_more_where_the_load_drives() -> None:
+    drive = Drive.of_input(KNEE)
+    bound = least_peak_torque(drive, 0.0, 2.0 * np.pi, 0.8)
     assert 0.999 * bound < drive.limit("peak torque", "0 deg", "360 deg", "0.8 s").value < bound
 
 
