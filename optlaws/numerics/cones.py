@@ -8,8 +8,8 @@ import numpy as np
 
 from optlaws.numbers import Array
 
-SOLVED = "Solved"
-_USABLE = (SOLVED, "AlmostSolved")
+SOLVED, NEARLY_SOLVED = "Solved", "AlmostSolved"
+_USABLE = (SOLVED, NEARLY_SOLVED)
 INFEASIBLE = "PrimalInfeasible"
 _ENDED = (SOLVED, INFEASIBLE, "DualInfeasible")
 

@@ -84,6 +84,21 @@ class StructureSegment:
         known = States.unpacked(self.rows[:1], self.structure)
         return replace(states, u=np.where(self.structure.free, states.u, known.u))
 
+    def nearest(self, t: float) -> tuple[float, ActiveSet]:
+        """How far off the law is that is known nearest to a place, and its active set."""
+        place = int(np.argmin(np.abs(self.t - t)))
+        state, structure = States.unpacked(self.rows[place : place + 1], self.structure), self.structure
+        near = ActiveSet(
+            x=state.x[0],
+            family=structure.family,
+            u=state.u[0],
+            s=structure.sign,
+            free=structure.free,
+            multipliers=state.weights[0],
+            equality_multipliers=state.equations[0],
+        )
+        return abs(float(self.t[place]) - t), near
+
     def joined(self, t: Array, rows: Array) -> None:
         """Further states of the segment."""
         every, unique = np.unique(np.concatenate([self.t, t]), return_index=True)
@@ -106,14 +121,22 @@ def laws_along(path: Path, t: Array, segments: list[StructureSegment] | None = N
     untried = np.ones(len(t), dtype=np.bool_)
     while (place := _next_place(laws.solved, untried)) is not None:
         untried[place] = False
-        solved = np.flatnonzero(laws.solved)
-        near = laws.active_set(int(solved[np.argmin(np.abs(solved - place))])) if len(solved) else None
-        following = segment_at(path, float(t[place]), near)
+        following = segment_at(path, float(t[place]), _nearest(known, float(t[place])))
         if following is not None and following.structure.count <= laws.u.shape[1]:
             ends = [_last_place(path, following, t, place, end) for end in _open_ends(laws.solved, place)]
             _fill(laws, path, following, t, np.arange(ends[0], ends[1] + 1))
-            known.append(following)
+            alike = (each for each in known if each.structure.signature == following.structure.signature)
+            same = next(alike, None)
+            if same is None:
+                known.append(following)
+            else:
+                same.joined(following.t, following.rows)
     return _in_own_bounds(laws, path, t)
+
+
+def _nearest(segments: list[StructureSegment], t: float) -> ActiveSet | None:
+    """The active set of the law that is known nearest to a place of the path; None where none is known."""
+    return min((segment.nearest(t) for segment in segments), key=lambda known: known[0], default=(0.0, None))[1]
 
 
 def segment_at(path: Path, t: float, near: ActiveSet | None) -> StructureSegment | None:

@@ -15,7 +15,7 @@ from typing import Literal, TypeAlias, get_args
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.numerics.cones import INFEASIBLE, SOLVED
+from optlaws.numerics.cones import INFEASIBLE, NEARLY_SOLVED
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.energy import EnergyFamily
@@ -180,9 +180,9 @@ class _Exchange:
             far = float(np.abs(answer.x).max()) > _LOST and not (self.convex and answer.success)
             astray = far or not np.isfinite(answer.x).all()
             self.lost = astray or not answer.usable
-            if not astray:
-                self.tried.append(as_answered(self.points, answer))
             optimum = None if self.lost else self._near(answer)
+            if optimum is None and not astray:
+                self.tried.append(as_answered(self.points, answer))
             if optimum is not None or self.lost:
                 break
         optimum = optimum or self._without_amplitudes()
@@ -207,8 +207,11 @@ class _Exchange:
 
     def _near(self, answer: Answer) -> ActiveSet | None:
         """The optimum that the contacts of an answer lead to, where it exceeds nothing, not even beside a contact."""
-        optimum = polished(self.program, identified(self.program, self.points, answer), self.options.holds)
-        return None if optimum is None or _excess(self.program, optimum.x) > BOUND_FEASIBILITY else optimum
+        holds = self.options.holds
+        optimum = polished(self.program, identified(self.program, self.points, answer), holds)
+        if optimum is None or (holds is not None and holds(optimum.x)):
+            return optimum
+        return None if _excess(self.program, optimum.x) > BOUND_FEASIBILITY else optimum
 
     def _answers(self) -> Iterator[Answer]:
         """The answers on the points: where a program is curved each is finer than the one before."""
@@ -222,7 +225,10 @@ class _Exchange:
             answer = solve_on_points(program, points, self.start, fine=fine)
             yield answer if answer.usable or not fine else solve_on_points(program, points, self.start)
         elif self.convex:
-            yield answer_on_points(program, points, self.start)
+            answer = answer_on_points(program, points, self.start)
+            yield answer
+            if answer.status == NEARLY_SOLVED and not program.curved:
+                yield _vertex(program, points) or answer
         else:
             if self.count == 1:
                 yield from self._straight()
@@ -258,22 +264,26 @@ def answer_on_points(
 ) -> Answer:
     """Clarabel's solution of a linear or conic program; of any other, or where it has none, the end of quadratic steps.
 
-    Rows that meet in next to no interior leave Clarabel short of its accuracy. The simplex method needs none, and ends
-    linear programs there; quadratic steps end those with cones of constants in very different units.
+    Rows that meet in next to no interior leave Clarabel short of its accuracy, or without an answer. The simplex method
+    needs none, and ends linear programs there; quadratic steps end those with cones of constants in very different
+    units.
     """
     if all(map(of_cones, program.families)):
         answer = optimum_on_points(program, points)
-        if answer.status in (SOLVED, INFEASIBLE):
+        if answer.success or answer.status == INFEASIBLE:
             return answer
         if not program.curved:
-            from optlaws.synthesis.method.discretised.linear import vertex_on_points
-
-            return vertex_on_points(program, points) or answer
-        if answer.success:
-            return answer
+            return _vertex(program, points) or answer
     from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
 
     return stepwise_on_points(program, points, np.zeros(program.size) if start is None else start, settled)
+
+
+def _vertex(program: Program, points: list[Points]) -> Answer | None:
+    # scipy's solvers take as long to import as a law needs
+    from optlaws.synthesis.method.discretised.linear import vertex_on_points
+
+    return vertex_on_points(program, points)
 
 
 def _excess(program: Program, x: Array) -> float:

@@ -33,14 +33,15 @@ def identified(program: Program, points: list[Points], answer: Answer) -> Active
     """The contacts near an answer: each point's multiplier is given to the extremum that its hill leads to."""
     contacts: list[Contact] = []
     for i, (family, grid) in enumerate(zip(program.families, points, strict=True)):
-        weights = answer.multipliers[i]
-        u, s, residual = family.extremes(answer.x)
         jet = family.jet(answer.x, grid.u, grid.s)
-        gathered = np.zeros(len(u))
-        for j in np.flatnonzero(_binding(jet.gradient, weights, jet.value)):
-            higher = (s == grid.s[j]) & (residual >= jet.value[j] - _SAME_HEIGHT)
-            distance = np.where(higher, np.abs(u - grid.u[j]), np.inf)
-            gathered[np.argmin(distance)] += weights[j]
+        binding = _binding(jet.gradient, answer.multipliers[i], jet.value)
+        if not binding.any():
+            continue
+        u, s, residual = family.extremes(answer.x)
+        higher = (s == grid.s[binding, None]) & (residual >= jet.value[binding, None] - _SAME_HEIGHT)
+        distance = np.where(higher, np.abs(u - grid.u[binding, None]), np.inf)
+        weights = answer.multipliers[i][binding]
+        gathered = np.bincount(distance.argmin(axis=1), weights, len(u)).astype(np.float64)
         _merge(family, u, s, gathered)
         movable = family.movable(u)
         contacts += [(i, u[j], s[j], movable[j], gathered[j]) for j in np.flatnonzero(gathered)]

@@ -123,29 +123,32 @@ def _iterated(
     deficient: bool = False,
 ) -> tuple[ActiveSet | None, _Integrals]:
     """The end of Newton's method, its fixed point or a state after which a step changes less than needed; the kinks."""
-    state = start
-    previous = np.inf
+    conditions = _Conditions(program, start)
+    y = conditions.unknowns(start)
+    size, previous = program.size, np.inf
     for _ in range(_STEPS_WITH_KINKS if integrals else _STEPS):
-        system, defect = _conditions(program, state, integrals)
+        system, defect = conditions.at(y, integrals)
         step = _step(system, defect, deficient=deficient)
         if not np.isfinite(step).all():
             return None, integrals
-        share, integrals = _with_moved_kinks(integrals, step)
-        before, state = state, _moved(state, share * step)
-        scale = max(1.0, float(np.abs(state.x).max()))
+        share, integrals = _with_moved_kinks(integrals, step) if integrals else (1.0, integrals)
+        before, y = y, y + share * step[: len(y)]
+        scale = max(1.0, float(np.abs(y[:size]).max()))
         steps, defects = np.abs(step), np.abs(defect)
-        if float(steps.max()) < enough * scale:
-            return state, integrals
-        size = float(steps[: program.size].max()) / scale
+        longest, moved = float(steps.max()), float(steps[:size].max()) / scale
+        if longest < enough * scale:
+            return conditions.state(y), integrals
         # x may stand still where the conditions do not hold: in a deficient system, or where the optimum is flat
-        off = max(float(defects[: program.size].max()), float(defects[program.size :].max(initial=0.0)) / scale)
-        if off < _NEWTON_FULFILLED and (size < _NEWTON_CONVERGED or (size < _NEWTON_STALLED and size > previous / 4)):
-            wandering = float(steps.max()) > _NEWTON_STILL
+        off = max(float(defects[:size].max()), float(defects[size:].max(initial=0.0)) / scale)
+        if off < _NEWTON_FULFILLED and (
+            moved < _NEWTON_CONVERGED or (moved < _NEWTON_STALLED and moved > previous / 4)
+        ):
+            wandering = longest > _NEWTON_STILL
             if not wandering or off < _NEWTON_STALLED:
-                return (before if wandering else state), integrals
-        if np.any(np.abs(state.u) > _FAR):
+                return conditions.state(before if wandering else y), integrals
+        if conditions.far(y):
             return None, integrals
-        previous = size
+        previous = moved
     return None, integrals
 
 
@@ -192,61 +195,89 @@ def _with_few_digits(numbers: Array) -> Array:
     return np.asarray(np.round(numbers * grid) / grid)
 
 
-def _conditions(program: Program, state: ActiveSet, integrals: _Integrals) -> tuple[Array, Array]:
-    """The optimality conditions' defect and its derivative; those of kinks come last."""
-    n, p = program.size, len(state.u)
-    value, slope, curvature = np.empty((3, p))
-    rows, slopes = np.empty((2, p, n))
-    free = state.free
-    m = int(free.sum())
-    last = n + m + p
-    begin = last + len(program.right)
-    system = np.zeros((begin + sum(len(integral.kinks) for integral in integrals.values()),) * 2)
-    defect = np.empty(len(system))
-    for i in sorted(set(state.family.tolist())):
-        contacts, family = state.family == i, program.families[i]
-        u, s = state.u[contacts], state.s[contacts]
-        if i in integrals:
-            integral = integrals[i].at(state.x)
-            value[contacts], slope[contacts], curvature[contacts] = (
-                s * integral.value - family.right_side(state.x),
-                0.0,
-                0.0,
-            )
-            rows[contacts], slopes[contacts] = s[:, None] * integral.slope - family.slack, 0.0
-            weight = float(state.multipliers[contacts] @ s)
-            system[:n, :n] += weight * integral.bend
-            here = slice(begin, begin + len(integral.rise))
-            system[:n, here] = weight * integral.share * integral.across.T
-            system[n + m + np.flatnonzero(contacts), here] = s[:, None] * integral.share * integral.rise
-            switches = integrals[i].switches_at(state.x)
-            system[here, :n], system[here, here] = switches.across, np.diag(switches.along)
-            defect[here] = switches.value
-            begin = here.stop
-            continue
-        jet = family.jet(state.x, u, s)
-        value[contacts], slope[contacts], curvature[contacts] = jet.value, jet.slope, jet.curvature
-        rows[contacts], slopes[contacts] = jet.gradient, jet.slope_gradient
-        bent = family.hessian(state.x, u, state.multipliers[contacts] * s)
-        if bent is not None:
-            system[:n, :n] += bent
+class _Conditions:
+    """The optimality conditions of contacts in the variables, the places that move, and the multipliers, in turn."""
 
-    turning, moved = slopes[free], np.arange(n, n + m)
-    end = last + len(program.right)
-    system[:n, n : n + m] = (turning * state.multipliers[free, None]).T
-    system[:n, n + m : last] = rows.T
-    system[:n, last:end] = program.equalities.T
-    system[last:end, :n] = program.equalities
-    system[n : n + m, :n] = turning
-    system[moved, moved] = curvature[free]
-    system[n + m : last, :n] = rows
-    system[n + m + np.flatnonzero(free), moved] = slope[free]
+    def __init__(self, program: Program, contacts: ActiveSet) -> None:
+        self.program, self.contacts = program, contacts
+        self.free = np.flatnonzero(contacts.free)
+        self.families = [(i, np.flatnonzero(contacts.family == i)) for i in sorted(set(contacts.family.tolist()))]
+        n = program.size
+        self.places = slice(n, n + len(self.free))
+        self.rows = slice(self.places.stop, self.places.stop + len(contacts.u))
+        self.equations = slice(self.rows.stop, self.rows.stop + len(program.right))
 
-    defect[:n] = program.objective + rows.T @ state.multipliers + program.equalities.T @ state.equality_multipliers
-    defect[n : n + m] = slope[free]
-    defect[n + m : last] = value
-    defect[last:end] = program.equalities @ state.x - program.right
-    return system, defect
+    def unknowns(self, state: ActiveSet) -> Array:
+        """All that Newton's method moves but kinks."""
+        return np.concatenate([state.x, state.u[self.free], state.multipliers, state.equality_multipliers])
+
+    def state(self, y: Array) -> ActiveSet:
+        """The contacts with these unknowns."""
+        u = self.contacts.u.copy()
+        u[self.free] = y[self.places]
+        return replace(
+            self.contacts,
+            x=y[: self.places.start],
+            u=u,
+            multipliers=y[self.rows],
+            equality_multipliers=y[self.equations],
+        )
+
+    def far(self, y: Array) -> bool:
+        """Whether a place has left the interval."""
+        return bool(np.any(np.abs(y[self.places]) > _FAR))
+
+    def at(self, y: Array, integrals: _Integrals) -> tuple[Array, Array]:
+        """Their defect and its derivative; those of kinks come last."""
+        program, free, places, equations = self.program, self.free, self.places, self.equations
+        n, p = program.size, len(self.contacts.u)
+        x, multipliers = y[:n], y[self.rows]
+        u = self.contacts.u.copy()
+        u[free] = y[places]
+        value, slope, curvature = np.empty((3, p))
+        rows, slopes = np.empty((2, p, n))
+        begin = equations.stop
+        system = np.zeros((begin + sum(len(integral.kinks) for integral in integrals.values()),) * 2)
+        defect = np.empty(len(system))
+        for i, contacts in self.families:
+            family, s = program.families[i], self.contacts.s[contacts]
+            weights = multipliers[contacts] * s
+            if i in integrals:
+                integral = integrals[i].at(x)
+                value[contacts] = s * integral.value - family.right_side(x)
+                rows[contacts] = s[:, None] * integral.slope - family.slack
+                slope[contacts] = curvature[contacts] = slopes[contacts] = 0.0
+                system[:n, :n] += weights.sum() * integral.bend
+                here = slice(begin, begin + len(integral.rise))
+                system[:n, here] = weights.sum() * integral.share * integral.across.T
+                system[self.rows.start + contacts, here] = s[:, None] * integral.share * integral.rise
+                switches = integrals[i].switches_at(x)
+                system[here, :n], system[here, here] = switches.across, np.diag(switches.along)
+                defect[here] = switches.value
+                begin = here.stop
+                continue
+            jet = family.jet(x, u[contacts], s)
+            value[contacts], slope[contacts], curvature[contacts] = jet.value, jet.slope, jet.curvature
+            rows[contacts], slopes[contacts] = jet.gradient, jet.slope_gradient
+            bent = family.hessian(x, u[contacts], weights)
+            if bent is not None:
+                system[:n, :n] += bent
+
+        turning, moved = slopes[free], np.arange(places.start, places.stop)
+        system[:n, places] = (turning * multipliers[free, None]).T
+        system[:n, self.rows] = rows.T
+        system[:n, equations] = program.equalities.T
+        system[equations, :n] = program.equalities
+        system[places, :n] = turning
+        system[moved, moved] = curvature[free]
+        system[self.rows, :n] = rows
+        system[self.rows.start + free, moved] = slope[free]
+
+        defect[:n] = program.objective + rows.T @ multipliers + program.equalities.T @ y[equations]
+        defect[places] = slope[free]
+        defect[self.rows] = value
+        defect[equations] = program.equalities @ x - program.right
+        return system, defect
 
 
 def _step(system: Array, defect: Array, *, deficient: bool) -> Array:
@@ -258,16 +289,3 @@ def _step(system: Array, defect: Array, *, deficient: bool) -> Array:
                 return step
     # where the optimum is not unique the shortest step leads to one of them
     return np.linalg.lstsq(system, -defect, rcond=DEPENDENT_ROWS)[0].astype(np.float64, copy=False)
-
-
-def _moved(state: ActiveSet, step: Array) -> ActiveSet:
-    n, p, m = len(state.x), len(state.u), int(state.free.sum())
-    u = state.u.copy()
-    u[state.free] += step[n : n + m]
-    return replace(
-        state,
-        x=state.x + step[:n],
-        u=u,
-        multipliers=state.multipliers + step[n + m : n + m + p],
-        equality_multipliers=state.equality_multipliers + step[n + m + p : n + m + p + len(state.equality_multipliers)],
-    )
