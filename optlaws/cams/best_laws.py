@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from math import sqrt
 from typing import Any, NamedTuple, TypeAlias
 
@@ -23,6 +24,7 @@ from optlaws.cams.roller_curvature import RollerCurvature, curvature_of
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
 from optlaws.cycles.optimisation.optimal import span_problem, with_places
+from optlaws.cycles.optimisation.span_values import known_drive, size_of
 from optlaws.entries.declared import documented_by
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
@@ -50,6 +52,15 @@ class SolvedPiece(NamedTuple):
 
 Solved: TypeAlias = list[SolvedPiece]
 
+
+class CamBound(NamedTuple):
+    """A lower bound of laws for a cam, the status of these laws, and the solutions whose bounds it is of."""
+
+    lower_bound: float
+    status: Status
+    solutions: tuple[Solution, ...]
+
+
 _WIDER = "make the prime circle larger, the limits wider, or the motion longer"
 
 _ROUNDS = 8
@@ -74,20 +85,25 @@ class BestCam:
     cam: DiscCam
     objective: float
     solutions: tuple[Solution, ...]
-    proof: Callable[[], tuple[float, Status]] = field(repr=False, compare=False)
+    proof: Callable[[], CamBound] = field(repr=False, compare=False)
 
     @property
     def lower_bound(self) -> float:
         """What no other laws of this order and degree in the same times that keep the limits can beat."""
-        return self._proven[0]
+        return self._proven.lower_bound
 
     @property
     def status(self) -> Status:
         """Optimal where the lower bound meets the objective."""
-        return self._proven[1]
+        return self._proven.status
+
+    @property
+    def bounding(self) -> tuple[Solution, ...]:
+        """The solutions whose bounds are the lower bound: of the same motions under lines above the limits."""
+        return self._proven.solutions
 
     @kept_property
-    def _proven(self) -> tuple[float, Status]:
+    def _proven(self) -> CamBound:
         return self.proof()
 
 
@@ -156,7 +172,8 @@ def best_cam(
     given = DiscCam(cycle, prime_radius, follower, turning=turning)
     known = _with_solutions(cycle)
     if limits.proven(given.extremes):  # the best laws without the limits keep them
-        return BestCam(given, cycle.objective, cycle.solutions, lambda: (_total(cycle, known), cycle.status))
+        proof = partial(CamBound, _total(cycle, known), cycle.status, cycle.solutions)
+        return BestCam(given, cycle.objective, cycle.solutions, proof)
     _refuse_radius_of_no_law(cycle, given, limits.radius)
     within = _solved(cycle, given, limits.in_si, below=True)
     inner = _with_curvature(cycle, given, limits.radius, within)
@@ -171,21 +188,47 @@ def best_cam(
             )
         )
     exact = bounds_are_of_all(cam.contact, limits)
-    return _bounded_by(plan, cam, lambda: _total(cycle, inner if exact else _beyond(cycle, given, limits)))
+    return _bounded_by(plan, cam, lambda: inner if exact else _beyond(cycle, given, limits))
 
 
-def cam_of_laws(plan: Plan, cam: DiscCam, lower_bound: float | None = None) -> BestCam:
-    """The cam of laws that are known, with the lower bound that their own bounds give unless another is given."""
-    known = _with_solutions(plan)
-    return _bounded_by(plan, cam, lambda: _total(plan, known) if lower_bound is None else lower_bound)
+def cam_of_laws(
+    plan: Plan, cam: DiscCam, bounding: Sequence[Solution] = (), lower_bound: float | None = None
+) -> BestCam:
+    """The cam of laws that are known, with the bound that solutions of its motions give, their own unless others are.
+
+    Earlier files state a `lower_bound` without them.
+    """
+    known = _with_solutions(plan.with_solutions(bounding) if bounding else plan)
+    return _bounded_by(plan, cam, lambda: known, lower_bound)
 
 
-def _bounded_by(plan: Plan, cam: DiscCam, bound: Callable[[], float]) -> BestCam:
-    def proof() -> tuple[float, Status]:
-        least = bound()
-        return least, Status.OPTIMAL if plan.objective - least <= 1e-6 * plan.objective else Status.LOCAL
+def _bounded_by(plan: Plan, cam: DiscCam, bounded: Callable[[], Solved], known: float | None = None) -> BestCam:
+    def proof() -> CamBound:
+        solved = bounded()
+        least = _total(plan, solved) if known is None else known
+        status = Status.OPTIMAL if plan.objective - least <= 1e-6 * plan.objective else Status.LOCAL
+        return CamBound(least, status, tuple(each.solution for each in solved if each.solution is not None))
 
     return BestCam(cam, plan.objective, tuple(plan.solutions), proof)
+
+
+def with_tight_bounds(plan: Plan) -> Plan:
+    """The plan with the tight bound of the motion of the greatest power, and of the next if that has less then.
+
+    The other motions take less power whatever their bounds.
+    """
+    objective, tried = plan.specification.in_si, set[int]()
+    kind, drive = objective.kind, known_drive(objective.drive)
+    while plan.status == Status.LOCAL:
+        sizes = [size_of(piece, kind, drive, mean=objective.mean) for _, piece, _ in plan.laws]
+        first = max(range(len(sizes)), key=sizes.__getitem__)
+        if first in tried:
+            break
+        tried.add(first)
+        solutions = list(plan.solutions)
+        solutions[first] = synthesize(solutions[first].problem, bound="tight")
+        plan = plan.with_solutions(solutions)
+    return plan
 
 
 def bounds_are_of_all(contact: FollowerContact, limits: CamLimits) -> bool:
@@ -193,19 +236,19 @@ def bounds_are_of_all(contact: FollowerContact, limits: CamLimits) -> bool:
     return contact.linear or limits.pressure_angle is None
 
 
-def bounds_hold(plan: Plan, cam: DiscCam, limits: CamLimits) -> bool:
-    """Whether the bounds of a plan's solutions are those of all its laws that keep the limits of its cam.
+def bounds_hold(plan: Plan, bounding: Sequence[Solution], cam: DiscCam, limits: CamLimits) -> bool:
+    """Whether the bounds of solutions of a plan's motions are those of all its laws that keep the limits of its cam.
 
-    They are where each solution is of the problem of its motion, or of this problem with limits of the cam.
+    They are where each solution is of the problem of its motion, or of this problem with limits of the cam, or with
+    lines above these.
     """
     objective, contact = plan.specification.in_si, cam.contact
-    for span, piece, solution in plan.laws:
+    for (span, piece, _), solution in zip(plan.laws, bounding, strict=True):
         known = [span_problem(span, objective)]
-        if bounds_are_of_all(contact, limits):
-            each = linear_limits(piece, contact, limits.in_si, plan.duration, below=True)
-            known.append(_problem(known[0], [limit.window() for limit in each], ()))
-            bend = None if limits.radius is None else curvature_of(piece, contact, limits.radius, plan.duration)
-            known += [] if bend is None else [replace(known[1], windows=(*known[1].windows, bend.window()))]
+        lines = linear_limits(piece, contact, limits.in_si, plan.duration, below=False)
+        known.append(_problem(known[0], [limit.window() for limit in lines], ()))
+        bend = None if limits.radius is None else curvature_of(piece, contact, limits.radius, plan.duration)
+        known += [] if bend is None else [replace(known[1], windows=(*known[1].windows, bend.window()))]
         if solution.problem not in known:
             return False
     return True

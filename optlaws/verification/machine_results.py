@@ -37,6 +37,8 @@ from optlaws.verification.result import (
 from optlaws.verification.stated_solutions import solution
 
 _MOST = 1000  # rows of a list
+#: of a cam under limits that are not linear in its laws
+_BOUNDING = "bounding_solutions"
 _SOUGHT = 1e-7  # of a number: where searches end, each within 1e-9 of a time; a tenth of what the proofs leave
 _NOUGHT = 1e-6  # of what is about 1: numbers that are less are compared with it
 _NUMBERS = re.compile(r"((?<![\w.])\d+(?:\.\d+)?(?:e[-+]?\d+)?)")
@@ -52,10 +54,13 @@ def plan(data: Data) -> Verification:
 def cam(data: Data) -> Verification:
     """Check the solutions of the laws of a cam, each by itself, and the numbers of the cam that has these laws."""
     known, claims, of_bounds = _solutions(data)(), list[Claim](), list[Claim]()
+    bounding = _solutions(data, _BOUNDING)() if _BOUNDING in data else {}
     try:
         result = imported("optlaws.jobs.cam").stored(data)
         stated = {
-            name: value for name, value in _renamed(data).items() if name not in {"about", "unit", "cam", "solutions"}
+            name: value
+            for name, value in _renamed(data).items()
+            if name not in {"about", "unit", "cam", "solutions", _BOUNDING}
         }
         wrong = result.plan.contradiction()
         detail = wrong or f"they meet its joints and keep its limits, in doubles; status {result.plan.status.value}"
@@ -63,7 +68,8 @@ def cam(data: Data) -> Verification:
         for name in getattr(result, "of_laws", ()):  # a barrel states none
             if name == "laws" or result.minimises_over_cycle:
                 weaker = "" if result.bounds_hold else _CURVED if result.minimises_over_cycle else _FURTHER
-                proven = _objective_of_laws(result.plan, list(known.values()), stated.get(name) or {}, weaker)
+                bounds = [each.bound for each in (bounding or known).values()]
+                proven = _objective_of_laws(result.plan, list(known.values()), stated.get(name) or {}, weaker, bounds)
                 of_bounds += [replace(claim, name=f"{name}.{claim.name}") for claim in proven]
         claims += _numbers(stated, result.data, of_bounds)
         entries = {*data, *stated}
@@ -72,7 +78,8 @@ def cam(data: Data) -> Verification:
             claims.append(Claim(name, proven=False, detail=detail, checked=False))
     except OptlawsError as error:
         claims = [_unread("the cam", error, known)]
-    every = [claim for place, each in known.items() for claim in every_claim(each, f"{place}: ")]
+    parts = {**known, **bounding}.items()
+    every = [claim for place, each in parts for claim in every_claim(each, f"{place}: ")]
     return with_claims(Verification(), [*every, *claims])
 
 
@@ -89,9 +96,9 @@ def _renamed(data: Data) -> dict[str, Any]:
     return known | ({"return_cam": _renamed(known["return_cam"])} if "return_cam" in known else {})
 
 
-def _solutions(data: Data) -> Callable[[], dict[str, Verification]]:
+def _solutions(data: Data, name: str = "solutions") -> Callable[[], dict[str, Verification]]:
     """The solutions of a plan or a cam by their places, which are verified when it is called."""
-    rows = {f"solutions[{i}]": each for i, each in enumerate(listed(data["solutions"], "solutions", _MOST))}
+    rows = {f"{name}[{i}]": each for i, each in enumerate(listed(data[name], name, _MOST))}
     for place, each in rows.items():
         if not isinstance(each, Mapping) or kind_of(each) != "solution":
             raise InputError(f"{place} is no solution with its problem, its law and its certificate")
@@ -149,13 +156,21 @@ class _Share(NamedTuple):
     least: Fraction | None
 
 
-def _objective_of_laws(plan: Any, known: Sequence[Verification], stated: Data, weaker: str = "") -> Iterator[Claim]:
+def _objective_of_laws(
+    plan: Any,
+    known: Sequence[Verification],
+    stated: Data,
+    weaker: str = "",
+    of_others: Sequence[float | None] | None = None,
+) -> Iterator[Claim]:
     """The claims of the objective and the lower bound of a cycle in SI units, by the enclosed constants of its laws.
 
-    Bounds are those of the solutions, unless these are of problems with further constraints: `weaker` says so.
+    Bounds are those of the solutions or of others of the same motions, unless these are of problems with further
+    constraints: `weaker` says so.
     """
     objective = plan.specification.in_si
-    bounds = [None if weaker or plan.bound is not None else each.bound for each in known]
+    bounds = [each.bound for each in known] if of_others is None else of_others
+    bounds = [None if weaker or plan.bound is not None else bound for bound in bounds]
     shares = None if stated.get("objective") is None else _shares(plan, known, bounds)
     proven = None
     if shares is not None:

@@ -1,7 +1,9 @@
 """Cams in files: the laws are proven, and each number of a cam is computed again from its entries and its laws."""
 
 import json
+import tomllib
 from functools import cache
+from pathlib import Path as FilePath
 from typing import Any
 
 import pytest
@@ -9,7 +11,7 @@ import pytest
 from optlaws.errors import InputError
 from optlaws.verification import verify, verify_all
 from tests.documents import ROOT
-from tests.internals.jobs import stored_cam
+from tests.internals.jobs import read_of_cam, stored_cam
 from tests.internals.verification import differences
 from tests.verification.tampering import Path, changed, places, value_at
 
@@ -109,3 +111,50 @@ def test_a_cam_without_its_entries_is_refused() -> None:
     data = {name: value for name, value in stored("cam_best_laws").items() if name != "cam"}
     with pytest.raises(InputError, match=r"states .* without a certificate"):
         verify_all(data)
+
+
+ROCKER = """
+job = "cam"
+title = "A rocker"
+speed = "120 rpm"
+prime_radius = "62 mm"
+pressure_angle = "27 deg"
+best = "laws"
+follower = { kind = "oscillating roller", radius = "14 mm", arm = "110 mm", pivot_distance = "140 mm" }
+[motion]
+name = "rocker"
+degree = 7
+segment = [
+    { kind = "rise", by = "25 deg", duration = "110 deg" },
+    { kind = "dwell", duration = "60 deg" },
+    { kind = "return", duration = "130 deg" },
+    { kind = "dwell" },
+]
+"""
+
+
+def test_the_bound_of_laws_for_an_arm_is_that_of_solutions_in_its_file() -> None:
+    """Its limit of the pressure angle is no line: laws below lines above it have a bound of their own."""
+    entries = tomllib.loads(ROCKER)
+    data = json.loads(json.dumps(read_of_cam(entries, FilePath("rocker.toml")).data))
+    assert data["best"]["lower_bound"] < data["best"]["objective"] * (1.0 - 1e-6)
+    verification = verify(data)
+    assert verification.proven
+    assert {"best.lower_bound", "bounding_solutions[0]", "bounding_solutions[1]"} <= {
+        claim.name.split(":")[0] for claim in verification.claims
+    }
+    assert json.loads(json.dumps(stored_cam(data).data)) == data
+    [higher] = [claim for claim in verify(raised(data, "best")).claims if not claim.proven]
+    assert higher.name == "best.lower_bound"
+    # the bounds of laws below the lines that their own laws keep are none of all laws
+    within = verify({**data, "bounding_solutions": data["solutions"]})
+    assert "best.lower_bound" in {claim.name for claim in within.claims if not claim.proven}
+    # as of files written before
+    earlier = verify({name: value for name, value in data.items() if name != "bounding_solutions"})
+    assert "best.lower_bound" in {claim.name for claim in earlier.unchecked}
+
+
+def raised(data: dict[str, Any], name: str) -> dict[str, Any]:
+    """The data with a lower bound that is between the proven one and the objective."""
+    known = data[name]
+    return {**data, name: {**known, "lower_bound": 0.5 * (known["lower_bound"] + known["objective"])}}

@@ -30,6 +30,8 @@ from optlaws import (
     at_least,
     at_most,
     drive_limit,
+    maximum,
+    peak,
     synthesize,
     via,
 )
@@ -99,6 +101,34 @@ def test_what_derivatives_do_not_bound_the_equations_of_pieces_do(tmp_path: Path
     (result,) = checked(solution.certificate.to_dict(), tmp_path)
     assert result["bound"] == pytest.approx(solution.certificate.bound, rel=1e-14)
     assert result["bound"] <= solution.objective * (1 + 1e-12)
+
+
+@pytest.mark.parametrize(
+    "objective",
+    [
+        peak("1*a + 0.67*c - 100.7", side="high"),  # below 0, as of the least prime circle of a cam
+        peak("0.62*a + 0.063*c + 0.126"),  # the force of a mass on a spring
+        maximum(peak("0.3*b - 0.1*a", side="high"), peak("0.05*c")),
+    ],
+    ids=["below 0", "force", "greatest of two"],
+)
+def test_peaks_of_formulas_that_are_affine_in_the_law_are_proven(objective: Any, tmp_path: Path) -> None:
+    inside = (Window("a", 0.0, 1.0),)
+    problem = Problem(order=3, basis=Chebyshev(7), symmetric=False, minimise=objective, C=at_most(13.6), windows=inside)
+    solution = synthesize(problem)
+    data = solution.to_dict()
+    claims = checked(data, tmp_path)
+    assert verdicts(claims) == {"proven"}
+    [bound] = [claim["bound"] for claim in claims if claim["path"] == "certificate"]
+    assert bound == pytest.approx(solution.certificate.bound, rel=1e-12)
+    size = abs(solution.objective)
+    for name, value in (
+        ("objective", solution.objective - 1e-8 * size),
+        ("lower_bound", solution.objective + 1e-6 * size),
+    ):
+        assert false(checked(changed(data, (name,), value), tmp_path)), name
+    raised = changed(data, ("certificate", "bound"), solution.objective + 1e-6 * size)
+    assert "certificate" in false(checked(raised, tmp_path))
 
 
 def test_files_that_call_the_snap_jounce_are_read_by_both(tmp_path: Path) -> None:

@@ -23,7 +23,7 @@ Entries: TypeAlias = "dict[str, Any]"
 PARTLY = re.compile(
     r"not checked (at [^:]* s: )?"
     r"(the best possible( time)?: .* in doubles|the file: results without proofs|the law: "
-    r"|lower_bound: .* do not prove alone|best.lower_bound: .* not linear in them)"
+    r"|lower_bound: .* do not prove alone)"
 )
 #: exit codes of a problem that is refused, has no law, or whose solver stopped
 REFUSED = {2, 3, 4}

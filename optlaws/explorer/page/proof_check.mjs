@@ -144,8 +144,8 @@ export function provenBy(certificate) {
     else if (row) take(multiplier, row);
   }
   rows.equations.forEach((row, i) => { if (equations[i]) take(exact(equations[i]), row); });
-  // rows in a unit of the machine's: such that nothing is left of their variable
-  for (const [name, group] of loose) {
+  // such that nothing is left of their variable, of a maximum before those of its parts, whose names are within its own
+  for (const [name, group] of [...loose].sort(([one], [other]) => other.length - one.length)) {
     const factor = (total.names.get(name) ?? ZERO).over(sum(group.map(([multiplier]) => multiplier)));
     if (factor.sign > 0) group.forEach(([multiplier, row]) => take(multiplier.times(factor), row));
   }

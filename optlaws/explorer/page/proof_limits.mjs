@@ -9,9 +9,10 @@ const THREE_HALVES = exact(1.5);
 export function limitOf(problem, objective) {
   if (problem.start || problem.end || problem.order < 2) return null;
   const velocity = rangeOf(problem, "B");
-  const free = !fixed(velocity) || !ONE.below(velocity.high) || (problem.inflexion ?? null) !== null;
-  const B = free ? null : velocity.high;
-  const least = { C: () => accelerationLimit(B, problem.monotone), D: () => powerLimit(B, problem.monotone) };
+  const free = !velocity?.high || !ONE.below(velocity.high) || (problem.inflexion ?? null) !== null;
+  // of all lower velocities the greatest one has the lowest limit, up to that of the least of all
+  const most = (best) => (free || (!fixed(velocity) && best.below(velocity.high)) ? null : velocity.high);
+  const least = { C: () => accelerationLimit(most(TWO), problem.monotone), D: () => powerLimit(most(THREE_HALVES), problem.monotone) };
   if (leavesOf(objective).some((name) => !neverNegative(problem, name))) return null;
   const total = (terms) => terms.reduce((value, [weight, term]) => {
     if (term.parts) return value.plus(weight.times(term.parts.map(total).reduce(greatest)));

@@ -6,7 +6,7 @@ import { above, below } from "./proof_balls.mjs";
 import { along, formulaOf, namesIn, opposed } from "./proof_formulas.mjs";
 import { interval } from "./proof_intervals.mjs";
 import { machineConstant, machineName, outputOf } from "./proof_machines.mjs";
-import { MEANS, ORDERS, PEAKS, rangeOf } from "./proof_rows.mjs";
+import { MEANS, ORDERS, PEAKS, peakOf, rangeOf } from "./proof_rows.mjs";
 
 const BITS = 256;
 const BITS_OF_CELL = 192;
@@ -73,9 +73,18 @@ export function enclosed(motion, name) {
     return [high.sign ? square.over(high).rounded(-1) : ZERO, high];
   }
   if (name === "D") return extreme(motion.map((piece) => multiplied(of(piece, 1), of(piece, 2))), [1, -1]);
+  const form = name in PEAKS ? null : peakOf(name);
+  if (form) return extreme(motion.map((piece) => formAlong(piece, form)), form.signs);
   if (!(name in PEAKS)) throw new Unknown(`the constant ${name}`);
   const [nu, signs] = PEAKS[name];
   return extreme(motion.map((piece) => of(piece, nu)), signs);
+}
+
+/* A formula that is affine in the law on a piece, over t. */
+function formAlong(piece, { factors, rest }) {
+  const parts = Object.entries(factors).map(([name, factor]) => of(piece, ORDERS[name]).map((entry) => entry.times(factor)));
+  const length = Math.max(1, ...parts.map((part) => part.length));
+  return Array.from({ length }, (_, i) => sum([i ? ZERO : rest, ...parts.map((part) => part[i] ?? ZERO)]));
 }
 
 function ofMachine(motion, constant) {

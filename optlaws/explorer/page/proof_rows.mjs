@@ -36,7 +36,7 @@ export function parsed(text) {
     if (number) at += number[0].length;
     const weight = number ? exact(Number(number[0].slice(0, -1))) : ONE;
     const start = at;
-    const name = machineName(text.slice(at)) ?? /^\w+/.exec(text.slice(at))?.[0];
+    const name = machineName(text.slice(at)) ?? peakName(text.slice(at)) ?? /^\w+/.exec(text.slice(at))?.[0];
     at += name?.length ?? 0;
     if (name === "max" && text[at] === "(") {
       const parts = [];
@@ -49,12 +49,30 @@ export function parsed(text) {
       at += 1;
       return [weight, { name: text.slice(start, at), parts }];
     }
-    if (!(name in PEAKS) && !(name in MEANS) && name !== "D" && !machineConstant(name ?? "")) throw new Unknown(`the objective ${text}`);
+    if (!(name in PEAKS) && !(name in MEANS) && name !== "D" && !peakOf(name ?? "") && !machineConstant(name ?? "")) throw new Unknown(`the objective ${text}`);
     return [weight, { name }];
   }
   const read = terms();
   if (at !== text.length) throw new Unknown(`the objective ${text}`);
   return read;
+}
+
+/* The text of a formula's peak at the beginning of a text; null where there is none. */
+function peakName(text) {
+  if (!text.startsWith("peak(")) return null;
+  let depth = 0;
+  const last = [...text].findIndex((sign) => {
+    depth += sign === "(" ? 1 : sign === ")" ? -1 : 0;
+    return sign === ")" && depth === 0;
+  });
+  return last < 0 ? null : text.slice(0, last + 1);
+}
+
+/* The peak of a formula that is affine in the law, of its value or of its magnitude; null where this program knows no such. */
+export function peakOf(name) {
+  const [, text, side] = /^peak\(([^,]*)(, side=high)?\)$/.exec(name) ?? [];
+  const form = text === undefined ? null : affineIn(formulaOf(text));
+  return form && { ...form, signs: side ? [1] : [1, -1] };
 }
 
 /* The names of the constants in an objective. */
@@ -88,6 +106,8 @@ export function rangeOf(problem, name) {
 
 /* Whether a constant is never below 0 in a law of a problem. */
 export function neverNegative(problem, name) {
+  if (name.startsWith("max(") && parsed(name)[0][1].parts.some((part) => part.every(([, term]) => neverNegative(problem, term.name)))) return true;
+  if (name.includes("side=")) return false;
   const velocities = endVelocities(problem);
   return !["C_plus", "C_minus"].some((constant) => name.includes(constant)) || (velocities !== null && velocities.change.sign === 0);
 }
@@ -107,7 +127,8 @@ export class Rows {
     this.objective = parsed(problem.minimise);
     const others = Object.keys(problem.bounds ?? {}).filter((name) => !(name in PEAKS) && !(name in MEANS) && name !== "D");
     this.machines = new Map();
-    for (const name of [...others, ...leavesOf(this.objective).filter((leaf) => leaf.includes("("))]) this.#addMachine(name);
+    const named = [...others, ...leavesOf(this.objective).filter((leaf) => leaf.includes("("))];
+    for (const name of named.filter((each) => !peakOf(each))) this.#addMachine(name);
     const formulas = (problem.windows ?? []).filter((window) => !(window.quantity in ORDERS));
     if (formulas.some(({ low, high, start, stop }) => low === high && start === stop)) throw new Unknown("values of a formula");
     this.velocity = rangeOf(problem, "B");
@@ -160,6 +181,7 @@ export class Rows {
       return values && this.#below(values, sign, name);
     }
     if (name in MEANS) return this.#mean(name, direction);
+    if (peakName(name) === name) return this.#peak(name, contact.sign, k);
     if (machineName(name)) return this.machines.has(name) ? this.#ofMachine(name, sign, k, direction) : this.#strange(name);
     if (name === "b" && this.velocity && signs(1, -1)) {
       const values = laws.values(1, k);
@@ -281,7 +303,7 @@ export class Rows {
     if (!part) return null;
     const names = { [greatest]: ONE.negative() };
     for (const [weight, inner] of part) names[inner.name] = (names[inner.name] ?? ZERO).plus(weight);
-    return this.#row(null, ONE, names);
+    return this.#balanced(this.#row(null, ONE, names), greatest);
   }
 
   #window(name, sign, k) {
@@ -318,12 +340,31 @@ export class Rows {
     if (!form) throw new Unknown(`rows ${name}`);
     if (k.plus(NEAR).below(side.start) || side.stop.plus(NEAR).below(k)) return null;
     const place = k.below(side.start) ? side.start : side.stop.below(k) ? side.stop : k;
+    return this.#row(this.#valuesOf(form, place), ONE, {}, side.high);
+  }
+
+  /* The row of a peak of a formula that is affine in the law. */
+  #peak(name, sign, k) {
+    const form = peakOf(name);
+    if (!form) throw new Unknown(`rows ${name}`);
+    const row = form.signs.includes(sign) ? this.#below(this.#valuesOf(form, k), whole(sign), name) : null;
+    return row && this.#balanced(row, name);
+  }
+
+  /* A row of a variable that may be below 0: what rounding of multipliers leaves of it would take any amount. */
+  #balanced(row, name) {
+    return this.names.includes(name) && !neverNegative(this.problem, name) ? { ...row, loose: name } : row;
+  }
+
+  /* The values of a formula at a place, by the law's coordinates and a constant. */
+  #valuesOf(form, place) {
     const total = Array(this.laws.terms + 1).fill(ZERO);
+    total[this.laws.terms] = form.rest;
     for (const [each, factor] of Object.entries(form.factors)) {
       const values = this.laws.values(ORDERS[each], place);
       values.forEach((value, i) => { total[i] = total[i].plus(factor.times(value)); });
     }
-    return this.#row(total, ONE, {}, side.high.minus(form.rest));
+    return total;
   }
 
   /* A window and, of symmetric laws, what the mirror image of its second half says of the first. */

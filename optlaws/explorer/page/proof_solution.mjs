@@ -87,7 +87,8 @@ export function solutionChecked(data, path, proven) {
       else claims.push({ path: `${path}: ${name}`, verdict: "not checked", detail: `${stated} is stated, by no proof that this program knows` });
     }
     // of an objective that is 0 but for rounding, the scale is the measure of gaps
-    const measure = highest && (NO_OBJECTIVE.times(scale).below(highest) ? highest : scale);
+    const size = highest?.magnitude();
+    const measure = size && (NO_OBJECTIVE.times(scale).below(size) ? size : scale);
     const gap = measure?.sign > 0 && best ? highest.minus(best).over(measure) : null;
     const room = (most) => gap && !most.plus(GAP).below(gap);
     const nearly = (least) => least && !GAP.times(HALF).below(least);

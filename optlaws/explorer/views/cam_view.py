@@ -20,8 +20,8 @@ from optlaws.explorer.views.cycle_view import SEGMENTS, CycleRequest
 from optlaws.explorer.views.law_view import refusing
 from optlaws.explorer.views.panel_data import drawn, fact_sentences, panel_data
 from optlaws.explorer.views.requests import check_size, without_files
-from optlaws.jobs.cam import CamResult
 from optlaws.jobs.cam_entries import CamProblemFile
+from optlaws.jobs.cam_result import CamResult
 from optlaws.motion.quantities import MILLI, quantity
 from optlaws.sentences import Sentence, capital, joined, sentence
 from optlaws.shown.report import ReportTable

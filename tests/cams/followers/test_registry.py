@@ -19,7 +19,7 @@ MAKERS = {
     "balancing/dwells/dwell_machine.py": {"OscillatingRoller"},
     "cams/at_shaft.py": {"translating roller"},
     "cams/least_sizes.py": {"TranslatingRoller"},
-    "jobs/cam.py": {"TranslatingRoller"},
+    "jobs/sought_cam.py": {"TranslatingRoller"},
     "jobs/starters/starter.py": {"TranslatingRoller"},
     "explorer/views/cam_view.py": {"translating roller"},
 }
