@@ -52,6 +52,7 @@ def test_an_infinite_constant_is_null(jumping: Solution) -> None:
     assert jumping.constants.J.value == float("inf")
     assert jumping.to_dict()["constants"]["J"]["value"] is None
     assert jumping.constants.to_dict()["J"] == jumping.constants.J.to_dict()
+    assert replace(jumping.constants, rms_c=float("inf")).to_dict()["rms_c"] is None
 
 
 @pytest.mark.parametrize("name", EXAMPLES)

@@ -68,25 +68,6 @@ def test_values_are_right_to_12_digits_of_the_peak(name: str) -> None:
             assert max(abs(exact(mpf(k), nu) - law(k, nu)) for k in places) < 1e-12 * scale
 
 
-@pytest.mark.parametrize("name", LAWS)
-def test_rms_is_right_to_12_digits(name: str) -> None:
-    law, exact = built(name)
-    with mp.workdps(DIGITS):
-        c = exact.orders[2]
-        square = sum(p * q / (m + n + 1) for m, p in enumerate(c) for n, q in enumerate(c))
-        assert abs(law.constants.rms_c / mp.sqrt(square) - 1) < 1e-12
-
-
-@pytest.mark.parametrize("name", [name for name in LAWS if name.startswith(("S_", "Z"))])
-def test_exact_powers_describe_the_stored_series(name: str) -> None:
-    law, exact = built(name)
-    with mp.workdps(DIGITS):
-        for k in (mpf("0.1"), mpf("0.45"), mpf("0.9")):
-            angle = mp.acos(2 * k - 1)
-            stored = sum(mpf(value) * mp.cos(n * angle) for n, value in enumerate(law.acceleration))
-            assert abs(exact(k, 2) - stored) < mpf(10) ** -50
-
-
 def test_no_peak_is_missed_in_many_random_laws() -> None:
     rng = np.random.default_rng(11)
     k = DENSE[::10]

@@ -56,15 +56,6 @@ def mechanism(request: pytest.FixtureRequest) -> Mechanism:
     return ALL[request.param]
 
 
-def test_stored_and_read_again(mechanism: Mechanism) -> None:
-    again = Mechanism.from_json(mechanism.to_json())
-    assert again == mechanism
-    assert hash(again) == hash(mechanism)
-    assert again != mechanism.with_friction(coulomb=9.0)
-    x = np.linspace(*mechanism.over, 11)
-    assert (again.load(x) == mechanism.load(x)).all()
-
-
 def test_slopes_are_those_of_the_values(mechanism: Mechanism) -> None:
     low, high = mechanism.over
     x, step = np.linspace(low, high, 9)[1:-1] + 0.013 * (high - low), 1e-4 * (high - low)

@@ -82,12 +82,6 @@ def test_no_law_with_its_peak_at_a_place_is_better(fast: Solution) -> None:
     assert places[-1] == pytest.approx(fast.objective, rel=1e-8)
 
 
-def test_it_survives_json(certificate: Certificate) -> None:
-    again = Certificate.from_dict(json.loads(json.dumps(certificate.to_dict())))
-    assert again == certificate
-    assert again.bound == certificate.claim
-
-
 def test_a_claim_above_what_a_law_has_is_not_proven(certificate: Certificate, fast: Solution) -> None:
     assert not replace(certificate, claim=fast.objective * (1.0 + 1e-7)).proven
     assert replace(certificate, claim=0.9 * certificate.bound).proven

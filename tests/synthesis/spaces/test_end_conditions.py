@@ -1,6 +1,5 @@
 """End conditions other than rest: velocities, accelerations and more at either end."""
 
-import json
 from fractions import Fraction
 from typing import Any
 
@@ -9,7 +8,6 @@ import pytest
 
 from optlaws import (
     BoundaryConditions,
-    Certificate,
     Chebyshev,
     InputError,
     Problem,
@@ -83,14 +81,6 @@ def test_power_between_other_ends_is_bounded(minimise: str) -> None:
     solution = synthesize(problem(ENDS[2], minimise=minimise))
     judge(solution)
     assert 0.0 <= solution.lower_bound <= solution.objective
-
-
-@every_end
-def test_a_certificate_between_other_ends_survives_json(ends: BoundaryConditions) -> None:
-    solution = synthesize(problem(ends, minimise="J"))
-    again = Certificate.from_dict(json.loads(json.dumps(solution.certificate.to_dict())))
-    assert again.bound == solution.certificate.bound
-    assert again.problem == solution.certificate.problem
 
 
 def test_rest_written_out_is_rest() -> None:
