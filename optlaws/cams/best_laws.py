@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
 from math import sqrt
 from typing import Any, NamedTuple, TypeAlias
 
@@ -172,8 +171,12 @@ def best_cam(
     given = DiscCam(cycle, prime_radius, follower, turning=turning)
     known = _with_solutions(cycle)
     if limits.proven(given.extremes):  # the best laws without the limits keep them
-        proof = partial(CamBound, _total(cycle, known), cycle.status, cycle.solutions)
-        return BestCam(given, cycle.objective, cycle.solutions, proof)
+        return BestCam(
+            given,
+            cycle.objective,
+            cycle.solutions,
+            lambda: CamBound(_total(cycle, known), cycle.status, tuple(cycle.solutions)),
+        )
     _refuse_radius_of_no_law(cycle, given, limits.radius)
     within = _solved(cycle, given, limits.in_si, below=True)
     inner = _with_curvature(cycle, given, limits.radius, within)
@@ -219,16 +222,14 @@ def with_tight_bounds(plan: Plan) -> Plan:
     """
     objective, tried = plan.specification.in_si, set[int]()
     kind, drive = objective.kind, known_drive(objective.drive)
-    while plan.status == Status.LOCAL:
+    while True:
         sizes = [size_of(piece, kind, drive, mean=objective.mean) for _, piece, _ in plan.laws]
-        first = max(range(len(sizes)), key=sizes.__getitem__)
-        if first in tried:
-            break
+        first, solutions = max(range(len(sizes)), key=sizes.__getitem__), list(plan.solutions)
+        if first in tried or solutions[first].status != Status.LOCAL:
+            return plan
         tried.add(first)
-        solutions = list(plan.solutions)
         solutions[first] = synthesize(solutions[first].problem, bound="tight")
         plan = plan.with_solutions(solutions)
-    return plan
 
 
 def bounds_are_of_all(contact: FollowerContact, limits: CamLimits) -> bool:

@@ -41,7 +41,6 @@ from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.motion.quantities import MILLI, TURN, Exact, Kind
 from optlaws.shown.steps import step
 from optlaws.synthesis.solution import Solution
-from optlaws.synthesis.status import Status
 
 SIZE_MET = 1e-7  # of a radius: a size that is proven to so much is the least one
 _SEARCHED = 15  # the degree up to which a search for the bound of a power mostly succeeds
@@ -98,9 +97,9 @@ class SoughtCam:
 
         The search takes some ten seconds, in which the power of the usual bound is short by a quarter.
         """
-        best = self.sought
-        power = kind_of(self.spec.cycle.minimise)[0] is Kind.POWER and self.spec.cycle.degree <= _SEARCHED
-        if not power or not isinstance(best, BestCam) or best.status != Status.LOCAL or not self.bounds_hold:
+        cycle, exact = self.spec.cycle, bounds_are_of_all(self.cam.contact, self.spec.limits)
+        power = kind_of(cycle.minimise)[0] is Kind.POWER and cycle.degree <= _SEARCHED
+        if not power or not exact or not isinstance(self.sought, BestCam):
             return self
         step("proving that no law takes less power")
         return replace(self, known=with_tight_bounds(self.plan), circle=self.cam.prime_radius)
