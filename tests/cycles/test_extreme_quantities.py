@@ -132,14 +132,15 @@ DOORS: dict[str, Callable[[str], Any]] = {
 
 @pytest.mark.sample(4)
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("value", EXTREMES)
+@pytest.mark.parametrize("first", range(4))
 @pytest.mark.parametrize("door", DOORS)
-def test_a_quantity_of_no_machine_ends_in_an_error_of_ours_if_in_any(door: str, value: str) -> None:
-    try:
-        DOORS[door](value)
-    except OptlawsError as error:
-        # what it names is the user's: no array, no number of an inner formula
-        assert not any(word in str(error) for word in ("array(", "np.float64", "division", "NaN"))  # noqa: PT017 - if any
+def test_a_quantity_of_no_machine_ends_in_an_error_of_ours_if_in_any(door: str, first: int) -> None:
+    for value in EXTREMES[first::4]:
+        try:
+            DOORS[door](value)
+        except OptlawsError as error:
+            # what it names is the user's: no array, no number of an inner formula
+            assert not any(word in str(error) for word in ("array(", "np.float64", "division", "NaN")), value  # noqa: PT017
 
 
 @pytest.mark.parametrize("door", ["period", "duration, time", "run-in", "duration of an export", "advice"])
@@ -200,14 +201,10 @@ IMPOSSIBLE = ["1e-300 s", "1e-320 s", "1e300 s", "0 s", "-1 s", "nan s", "inf s"
 
 
 @pytest.mark.parametrize("door", DURATIONS)
-@pytest.mark.parametrize("time", [*IMPOSSIBLE, float("nan")])
-def test_an_impossible_duration_is_refused_by_its_name(door: str, time: Any) -> None:
-    with pytest.raises(InputError, match=r"duration|period|longest|vibration|^time"):
-        DURATIONS[door](time)
-
-
-@pytest.mark.parametrize("door", DURATIONS)
-@pytest.mark.parametrize("time", ["1e-29 s", "1e29 s"])
-def test_an_extreme_duration_is_taken_or_refused_in_words(door: str, time: str) -> None:
-    with suppress(OptlawsError):
-        DURATIONS[door](time)
+def test_an_impossible_duration_is_refused_by_its_name(door: str) -> None:
+    for time in (*IMPOSSIBLE, float("nan")):
+        with pytest.raises(InputError, match=r"duration|period|longest|vibration|^time"):
+            DURATIONS[door](time)
+    for time in ("1e-29 s", "1e29 s"):
+        with suppress(OptlawsError):  # taken, or refused in words
+            DURATIONS[door](time)

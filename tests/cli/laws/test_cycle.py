@@ -14,6 +14,7 @@ from optlaws.verification import verify_all
 from tests.documents import ROOT
 from tests.internals.cli import exit_code
 from tests.internals.explorer import start
+from tests.jobs.examples import SOLUTIONS, SOLUTIONS_PRINTED
 
 FASTEST = ROOT / "problems" / "cycle_fastest.toml"
 PRESS = ROOT / "problems" / "cycle_press.toml"
@@ -124,13 +125,13 @@ def test_without_matplotlib_there_are_all_results_but_pictures(tmp_path: Path) -
 
 def test_a_reader_who_has_seen_enough_leaves_the_results_of_all_files(tmp_path: Path) -> None:
     """As `| head` does: the pipe is closed before the first line."""
-    text = PRESS.read_text("utf-8")
     for name in ("a", "b"):
-        (tmp_path / f"{name}.toml").write_text(text, "utf-8")
+        (tmp_path / f"{name}.toml").write_text(SOLUTIONS, "utf-8")
+    (tmp_path / "printed.csv").write_text(SOLUTIONS_PRINTED, "utf-8")
     read, write = os.pipe()
     os.close(read)
     command = [sys.executable, "-m", "optlaws", "run", "a.toml", "b.toml"]
     done = subprocess.run(command, cwd=tmp_path, stdout=write, stderr=subprocess.PIPE, text=True, check=False)
     os.close(write)
     assert (done.returncode, done.stderr) == (0, "")
-    assert all((tmp_path / "results" / name / "cycle.json").exists() for name in "ab")
+    assert all((tmp_path / "results" / name / "laws.json").exists() for name in "ab")
