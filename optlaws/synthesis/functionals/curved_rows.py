@@ -195,12 +195,6 @@ def _cut(edges: list[float], cells: int) -> list[float]:
     return [*inner, edges[-1]]
 
 
-def rule_cells(space: LawSpace, motion: MotionFormula, count: int) -> Array:
-    """The breaks between which the formula is smooth, with at least a given number of cells between them."""
-    edges = rule_edges(space, motion)
-    return np.array(_cut(edges, -(-count // (len(edges) - 1))))
-
-
 def columns_of(space: LawSpace, nu: int, k: Array) -> Array:
     """The derivative of order nu at places in [0, 1]: of symmetric laws the second half is the first's mirror image."""
     if not space.symmetric:

@@ -128,26 +128,13 @@ class BoxRows(ABC):
 
     @property
     def alone(self) -> tuple[str, ...]:
-        """Names of the rows without a place, such as rows of integrals."""
+        """Names of the rows without a place."""
         return ()
 
     def beside(self, box: Box) -> list[tuple[Contact, Array]]:
         """Further rows of a box, each at most 0 with its constant, by contacts without multipliers."""
         del box
         return []
-
-    def row_beside(self, box: Box, contact: Contact) -> Array:
-        """The row of a contact from `beside`."""
-        return {contact_beside.constraint: row for contact_beside, row in self.beside(box)}[contact.constraint]
-
-    def worth(self, box: Box) -> Array | None:
-        """The gain from a split of each variable's range; None where it is not known."""
-        del box
-        return None
-
-    def remember(self, values: Array) -> None:
-        """Remember a law, by its variables of a box, near which further rows may be useful."""
-        del values
 
     @property
     def branched(self) -> list[int]:
@@ -193,7 +180,9 @@ class BoxRows(ABC):
 
     def of_contacts(self, contacts: Sequence[Contact], box: Box) -> Array:
         """The rows of contacts, each at most 0 with its constant: zeros where the problem does not have it."""
-        stacked = np.zeros((len(contacts), self.size + 1))
+        stacked, beside = np.zeros((len(contacts), self.size + 1)), dict[str, Array]()
+        if any(contact.constraint in self.alone for contact in contacts):
+            beside = {contact.constraint: row for contact, row in self.beside(box)}
         for name in self.names:
             mine = [i for i, contact in enumerate(contacts) if contact.constraint == name]
             if mine:
@@ -201,7 +190,7 @@ class BoxRows(ABC):
                 stacked[mine] = self.curved(box, places, name, np.array([contacts[i].sign for i in mine]))
         for i, contact in enumerate(contacts):
             if contact.constraint in self.alone:
-                stacked[i] = self.row_beside(box, contact)
+                stacked[i] = beside[contact.constraint]
             elif contact.constraint not in self.names:
                 stacked[i] = self._fixed_row(contact)
         return stacked

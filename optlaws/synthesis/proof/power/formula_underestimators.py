@@ -21,15 +21,11 @@ from optlaws.numbers import Array
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
 from optlaws.synthesis.families.family import ConstraintFamily
-from optlaws.synthesis.functionals.curved_rows import squared
-from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaRms
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
-from optlaws.synthesis.proof.power.integral_underestimators import ConvexUnderestimator
 from optlaws.synthesis.proof.sublevel_bounds import Sublevel
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 from optlaws.tolerances import BENEATH_ROUNDING, TINY
@@ -40,24 +36,19 @@ PEAKS = {"b": "B", "c": "C", "j": "J"}
 Way = tuple[int, ...] | None
 
 _MOST_CORNERS = 8
-#: laws near which integrals have planes
-_LAST = 6
 
 
 def applies(problem: Problem) -> bool:
     """Whether boxes bound the problem's formulas: polynomials whose velocities some constant bounds."""
     model = model_of(problem)
     known = isinstance(model.space, PolynomialSpace) and model.space.order > 1
-    open_ones = (
-        _bent(family) or (isinstance(family, IntegralFamily) and not family.convex) for family in model.program.families
-    )
-    if not known or not any(open_ones):
+    families = model.program.families
+    # of an integral that is not convex nothing is known in a box
+    if any(isinstance(family, IntegralFamily) and not family.convex for family in families):
         return False
-    sides = _own_sides(model, 1.0)
-    integrals = {family.name for family in model.program.families if isinstance(family, IntegralFamily)}
-    # an integral is no less than its formula is in the first box
-    low = [name in integrals or isfinite(end) for name, end in zip(_own_names(model), sides[:, 0], strict=True)]
-    return all(low) and bool(np.isfinite(sides[:, 1]).all()) and "B" in _greatest(model, 1.0)
+    if not known or not any(map(_bent, families)):
+        return False
+    return bool(np.isfinite(_own_sides(model, 1.0)).all()) and "B" in _greatest(model, 1.0)
 
 
 def _own_names(model: Model) -> list[str]:
@@ -136,17 +127,11 @@ class FormulaRows(BoxRows):
         self.families = [family for family in families if isinstance(family, CurvedFamily)]
         self._orders = sorted({ORDERS[name] for family in self.families for name in family.names})
         self._laws = {nu: self.space.derivative(nu, "", np.zeros(self.variables)) for nu in self._orders}
-        self._near: list[Array] = []
 
     def root(self) -> Box:
         low, high = self.brackets_at(self.points)
         sides = _own_sides(self.model, self.claim)
-        box = Box(np.append(low, sides[:, 0]), np.append(high, sides[:, 1]))
-        for beneath in self.integrals.values():
-            place = self.model.places.get(beneath.family.name)
-            if place is not None and not isfinite(box.low[place]):
-                box = box.cut(place, 1, min(beneath.least(box, self._limits), float(box.high[place])))
-        return box
+        return Box(np.append(low, sides[:, 0]), np.append(high, sides[:, 1]))
 
     def brackets_at(self, k: Array) -> tuple[Array, Array]:
         """Least and greatest velocity at the places k: the peak's, and the bounds by C from the ends."""
@@ -159,74 +144,6 @@ class FormulaRows(BoxRows):
             reach = np.where(away > 0.0, self.greatest.get("C", inf) * np.maximum(away, TINY), 0.0)
             low, high = np.maximum(low, velocity - reach), np.minimum(high, velocity + reach)
         return low, high
-
-    @kept_property
-    def integrals(self) -> dict[str, ConvexUnderestimator]:
-        formulas = {
-            constant.name: constant
-            for constant in self.problem.constants
-            if isinstance(constant, FormulaIntegral | FormulaRms)
-        }
-        planes = {}
-        for family in self.model.program.families:
-            if isinstance(family, IntegralFamily):
-                motion = formulas[family.name].motion
-                planes[names.plane(0, family.name)] = ConvexUnderestimator(
-                    self, family, squared(motion) if family.root else motion
-                )
-        return planes
-
-    @property
-    def alone(self) -> tuple[str, ...]:
-        """Names of the rows of integrals, which belong to no place."""
-        return tuple(self.integrals)
-
-    @property
-    def branched(self) -> list[int]:
-        """Integrals that may be below 0, and roots that are minimised with others."""
-        alone = len(list(leaves(self.problem.objective))) == 1
-        floors = dict(zip(_own_names(self.model), _own_sides(self.model, self.claim)[:, 0].tolist(), strict=True))
-        families = (integral.family for integral in self.integrals.values())
-        return [
-            self.model.places[family.name]
-            for family in families
-            if family.name in floors and ((family.root and not alone) or not isfinite(floors[family.name]))
-        ]
-
-    def remember(self, values: Array) -> None:
-        """The first, and those that came last."""
-        self._near = [*self._near[:1], *self._near[1:][-_LAST + 1 :], values[: self.terms]]
-
-    def beside(self, box: Box) -> list[tuple[Contact, Array]]:
-        """Planes of integrals that touch at the middle of the box, and at remembered laws."""
-        if not self.integrals:
-            return []
-        middle = ((box.low + box.high) / 2.0)[: self.terms]
-        touched = [
-            np.clip(near_law, box.low[: self.terms], box.high[: self.terms]) for near_law in (middle, *self._near)
-        ]
-        contacts = [Contact(name, 1.0, 0.0, 0.0, tuple(at.tolist())) for name, at in product(self.integrals, touched)]
-        return [(contact, self.row_beside(box, contact)) for contact in contacts]
-
-    def worth(self, box: Box) -> Array | None:
-        """Loss of the planes of integrals by each velocity's range, if bounds depend on these planes alone."""
-        if not self.integrals or self.families:
-            return None
-        lost = np.zeros(self.size)
-        for beneath in self.integrals.values():
-            lost[: self.terms] += beneath.lost(box, self._limits)
-        return lost if lost.any() else None
-
-    @kept_property
-    def _limits(self) -> dict[str, float]:
-        return {name: self.greatest[peak] for name, peak in PEAKS.items() if peak in self.greatest}
-
-    def row_beside(self, box: Box, contact: Contact) -> Array:
-        """The plane that touches at the law whose velocities the direction is."""
-        if len(contact.direction) != self.terms:
-            return np.zeros(self.size + 1)
-        beneath = self.integrals[contact.constraint]
-        return beneath.row(box, np.array(contact.direction), self._limits, self._room(beneath.family))
 
     def is_curved(self, family: ConstraintFamily) -> bool:
         return isinstance(family, CurvedFamily)
@@ -288,7 +205,7 @@ class FormulaRows(BoxRows):
             row -= self._room(family)
         return np.where(np.isfinite(row).all(axis=1)[:, None], row, 0.0)
 
-    def _room(self, family: CurvedFamily | IntegralFamily) -> Array:
+    def _room(self, family: CurvedFamily) -> Array:
         row: Array = self.mapped(np.append(family.slack, family.bound)[None])[0]
         return row
 

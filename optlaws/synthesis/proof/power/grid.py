@@ -10,6 +10,7 @@ from numpy.polynomial.chebyshev import chebpts2
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
+from optlaws.synthesis.families.curved import IntegralFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Tightening
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
@@ -134,6 +135,8 @@ class Grid:
         for family in rows.model.program.families:
             if isinstance(family, NormFamily):
                 self._norm(family, x)
+            elif isinstance(family, IntegralFamily):
+                self._fix([Contact(family.name, 1.0, 0.0, 0.0, family.touching(x, 1.0))])
             elif family.domain[0] == family.domain[1]:
                 self._join(family, family.k(np.array(family.domain[:1])))
             else:
@@ -181,7 +184,7 @@ class Grid:
         self.places = new if self.places is None else self.places.joined(new)
 
     def _constraint_rows(self, box: Box) -> Array:
-        """All rows of a box except the objective's: linear rows, curved rows at places, rows of integrals."""
+        """All rows of a box except the objective's: linear rows, curved rows at places, and what has no place."""
         parts = [self.fixed]
         if self.places is not None:
             count = len(self.places.k)

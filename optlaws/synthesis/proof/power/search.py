@@ -59,7 +59,6 @@ def searched(problem: Problem, claim: float, x: Array, budget: int, explore: Exp
     rows = rows_of(problem, claim, _points(problem, claim))
     if rows is None:
         raise InputError(f"nothing of {problem!r} can be bounded by boxes")
-    rows.remember(np.append(rows.rows(1, rows.points) @ np.append(x, 1.0), x[rows.terms :]))
     search = BoxSearch(rows, Grid(rows, x), budget, explore)
     search.run()
     return search
@@ -122,10 +121,8 @@ class BoxSearch:
             self.overtaken = self.explore(self._variables_of((box.low + box.high) / 2.0))
             if self.overtaken or self.left <= 0:
                 return
-            worth = self.rows.worth(box)
-            if worth is None:
-                worth = (box.high - box.low) / self._root_width
-            variable = max(self._variables, key=worth.__getitem__)
+            width = (box.high - box.low) / self._root_width
+            variable = max(self._variables, key=width.__getitem__)
             at = float(region.inner.low[variable] + region.inner.high[variable]) / 2.0
             self._tree.append(Split(variable, at))
             regions += [region.cut(variable, 1, at), region.cut(variable, -1, at)]
@@ -159,8 +156,6 @@ class BoxSearch:
     def _exchange(self, box: Box, points: Sequence[Array]) -> None:
         """Add rows to the grid that the solutions of linear programs violate, by the mean solution of each side."""
         width = float((box.high - box.low)[: self.rows.terms].max())
-        for point in points:
-            self.rows.remember(point)
         for side in (points[::2], points[1::2]) if points else ():
             self.grid.exchange(self._variables_of(np.mean(side, axis=0)), _SPACING * width)
 

@@ -1,4 +1,4 @@
-"""Boxes for formulas, integrals and loaders: rows hold for every law in a box, and tight bounds meet the objective."""
+"""Boxes for formulas and loaders: rows hold for every law in a box, and tight bounds meet the objective."""
 
 import json
 from dataclasses import replace
@@ -21,9 +21,7 @@ from optlaws import (
     Window,
     at_most,
     inertial_loader,
-    integral,
     peak,
-    rms,
     synthesize,
 )
 from optlaws.verification import verify
@@ -276,60 +274,3 @@ def test_what_is_tampered_with_proves_nothing() -> None:
     assert replace(proof, claim=proof.bound * 1.01).bound == -np.inf
     assert replace(proof, tree=proof.tree[:-1]).bound == -np.inf
     assert replace(proof, problem=replace(proof.problem, B=1.5)).bound == -np.inf
-
-
-# --- integrals that are not convex ---
-
-
-SMALLER = Problem(B=1.8, order=3, basis=Chebyshev(3))
-INTEGRALS = [
-    replace(SMALLER, minimise=rms("b*c")),
-    replace(SMALLER, minimise=integral("exp(c/5)*b^2")),
-    replace(SMALLER, basis=Chebyshev(5), minimise=integral("a^2*c^2")),
-    replace(SMALLER, minimise=rms("c*(1 + 0.3*a^2)", start=0.1, stop=0.7)),
-    replace(SMALLER, basis=Chebyshev(5), minimise=integral("sin(3*b)^2 + c^2/20")),
-    replace(SMALLER, symmetric=False, minimise=integral("(b*c)^2 + table(k, 0:0, 0.4:1, 1:0)*c^2")),
-    replace(SMALLER, B=None, C=at_most(7.0), minimise="C/4", bounds={"rms(b*c)": at_most(3.5)}),
-    replace(SMALLER, basis=Chebyshev(5), minimise=rms("b*c")),
-]
-
-
-@pytest.mark.sample(3)
-@pytest.mark.parametrize("problem", sampled(INTEGRALS, each=3), ids=repr)
-def test_a_tight_bound_of_an_integral_meets_the_objective(problem: Problem) -> None:
-    solution = synthesize(problem, bound="tight")
-    assert solution.status == "optimal"
-    assert solution.gap < 1e-8
-    data = json.loads(json.dumps(solution.to_dict()))["power_certificate"]
-    assert Certificate.from_dict(data).bound == solution.lower_bound
-    assert Certificate.from_dict({**data, "claim": data["claim"] * 1.001}).bound == -np.inf
-    assert Certificate.from_dict({**data, "steps": data["steps"][:-1]}).bound == -np.inf
-
-
-@pytest.mark.sample(4)
-@pytest.mark.parametrize("problem", INTEGRALS, ids=repr)
-def test_no_law_in_a_box_is_below_a_plane_of_an_integral(problem: Problem) -> None:
-    assert applies(problem)
-    random = np.random.default_rng(3)
-    space = FormulaRows(problem, 10.0, ()).space
-    points = np.sort(random.uniform(0.1, 0.5 if space.symmetric else 0.9, space.terms))
-    rows = FormulaRows(problem, 10.0, points.tolist())
-    [beneath] = rows.integrals.values()
-    family, nothing = beneath.family, np.zeros(rows.size + 1)
-    for width in (0.02, 0.1, 0.5):
-        middle = random.uniform(0.5, 1.5, rows.terms)
-        low, high = (np.append(middle + side * width, np.full(rows.variables - rows.terms, 1.0)) for side in (-1, 1))
-        box, touching = Box(low, high), middle + width * random.uniform(-1.0, 1.0, rows.terms)
-        # without equations, for these laws keep none
-        beneath.rows.equations = lambda: np.zeros((0, rows.size + 1))  # type: ignore[method-assign]
-        plane = beneath.row(box, touching, {}, nothing)
-        if family.root:
-            plane = plane + beneath._square(box, nothing)
-        assert plane.any()
-        for _ in range(20):
-            law = np.append(
-                middle + width * random.uniform(-1.0, 1.0, rows.terms), np.ones(rows.variables - rows.terms)
-            )
-            x = np.append(rows.coordinates(law), law[rows.terms :])
-            value = float(replace(family, root=False).value(x, np.ones(1))[0])
-            assert plane @ np.append(law, 1.0) <= value + 1e-9 * abs(value)
