@@ -522,13 +522,12 @@ def _beyond(places: Array, heights: Array, place: float, degree: int) -> tuple[f
     With the variance of the others about it, and what the variance of noise is multiplied by at the place.
     """
     u = (places - place) / np.ptp(places)
-    powers = u[:, None] ** np.arange(degree + 1)
-    fits = []
-    for row in range(len(u)):
-        others = np.arange(len(u)) != row
-        inverse = np.linalg.pinv(powers[others])
-        fit = inverse @ heights[others]
-        left = heights[others] - powers[others] @ fit
-        fits.append((float(left @ left) / max(len(u) - degree - 2, 1), float(fit[0]), float(inverse[0] @ inverse[0])))
-    variance, end, share = min(fits)
-    return end, variance, share
+    # all but one of the points, in as many ways
+    others = np.nonzero(~np.eye(len(u), dtype=bool))[1].reshape(len(u), -1)
+    powers, known = u[others, None] ** np.arange(degree + 1), heights[others]
+    inverses = np.linalg.pinv(powers)
+    fits = np.einsum("irc,ic->ir", inverses, known)
+    squares = ((known - np.einsum("icr,ir->ic", powers, fits)) ** 2).sum(axis=1)
+    best = int(np.argmin(squares))
+    weights = inverses[best, 0]
+    return float(fits[best, 0]), float(squares[best]) / max(len(u) - degree - 2, 1), float(weights @ weights)
