@@ -95,14 +95,18 @@ class SoughtCam:
     def with_proof(self) -> Self:
         """The cam with its laws of least power proven by a search over boxes, up to degrees of 15 or so.
 
-        The search takes some ten seconds, in which the power of the usual bound is short by a quarter.
+        The search takes some ten seconds, a few minutes where it fails. Stopped by Ctrl-C, it leaves the cam as it is.
         """
         cycle, exact = self.spec.cycle, bounds_are_of_all(self.cam.contact, self.spec.limits)
         power = kind_of(cycle.minimise)[0] is Kind.POWER and cycle.degree <= _SEARCHED
         if not power or not exact or not isinstance(self.sought, BestCam):
             return self
-        step("proving that no law takes less power")
-        return replace(self, known=with_tight_bounds(self.plan), circle=self.cam.prime_radius)
+        step("proving that no law takes less power; Ctrl-C leaves the quick bound")
+        try:
+            return replace(self, known=with_tight_bounds(self.plan), circle=self.cam.prime_radius)
+        except KeyboardInterrupt:
+            step("the search for a proof was stopped: the bound is the quick one", stays=True)
+            return self
 
     @kept_property
     def sought(self) -> BestCam | BestPrimeCircle | BestOffset | LeastPrimeCircle | None:

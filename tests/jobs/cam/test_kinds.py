@@ -399,6 +399,18 @@ def test_laws_of_least_power_count_the_spring_that_they_need(tmp_path: Path, mon
     assert not [claim for each in verify_all(tmp_path / "out" / "cam.json").values() for claim in each.unchecked]
 
 
+def test_a_search_for_the_proof_of_a_power_that_is_stopped_leaves_the_quick_bound(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("optlaws.jobs.sought_cam.with_tight_bounds", Mock(side_effect=KeyboardInterrupt))
+    numbers = {"stroke": "40mm", "rise": "110deg", "return": "100deg", "speed": "180rpm", "mass": "3 kg"}
+    text = STARTERS["cam"].text(numbers, tmp_path / "cam.toml").replace("animation = true", "")
+    page, reply, _ = done(tmp_path, text.replace("degree = 15", "degree = 7"))
+    assert reply["best"]["status"] == "local"
+    assert 0.0 < reply["best"]["lower_bound"] < 0.99 * reply["best"]["objective"]
+    assert "| local, gap " in page
+
+
 def test_a_follower_that_lifts_off_is_the_first_sentence_of_its_page(tmp_path: Path) -> None:
     motion = MOTION.replace("degree = 5", 'degree = 5\ndrive = { mass = "2 kg" }')
     text = HEAD + 'prime_radius = "60 mm"\n' + ROLLER + "[forces]\n" + motion
