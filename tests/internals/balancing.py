@@ -1,7 +1,6 @@
 """Internals of `optlaws.balancing` that tests look at by themselves."""
 
 from optlaws.balancing.dwells.choice import least_dwell
-from optlaws.balancing.dwells.clutch import exact_swing
 from optlaws.balancing.dwells.mechanism import DwellMechanism, DwellType
 from optlaws.balancing.dwells.sections import PartSegment
 from optlaws.balancing.levers.design import QUANTITIES

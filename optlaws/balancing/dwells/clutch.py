@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
-from math import inf, isfinite, tau
+from math import inf, tau
 
 from optlaws.balancing.dwells.mechanism import DwellMechanism
 from optlaws.errors import InputError
@@ -175,10 +175,3 @@ class Clutch:
         mechanism = self.mechanism
         left = (self.loader_turn - target * tau) / (mechanism.swing * mechanism.speed * mechanism.phi2)
         return 1.0 / left if 0.0 < left < 1.0 else None
-
-
-def exact_swing(mechanism: DwellMechanism, teeth: Teeth) -> DwellMechanism:
-    """The mechanism with the swing that makes a clutch exact."""
-    if teeth.swing is None or not isfinite(teeth.swing):
-        raise InputError(f"no swing makes a clutch with p = {teeth.p} of {teeth.N} teeth exact")
-    return replace(mechanism, swing=teeth.swing)

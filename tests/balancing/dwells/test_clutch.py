@@ -10,7 +10,7 @@ from scipy.integrate import quad
 from optlaws import Clutch, InputError, catalogue, deg, dwell_mechanism, smoothstep
 from optlaws.typing import DwellType
 from tests.balancing.dwells.test_mechanism import example, mechanism
-from tests.internals.balancing import DwellMechanism, exact_swing
+from tests.internals.balancing import DwellMechanism
 from tests.tables import rows
 
 
@@ -62,7 +62,8 @@ def test_the_changes_that_make_a_clutch_exact_do_so(kind: DwellType) -> None:
     start = example(kind, law=smoothstep(3), clutch_angle=deg(12))
     teeth = Clutch(start).teeth(2, 25)
     assert abs(teeth.error) > 1e-3
-    changed = [exact_swing(start, teeth)]
+    assert teeth.swing is not None
+    changed = [replace(start, swing=teeth.swing)]
     if teeth.dwell is not None:
         changed.append(replace(start, dwell=teeth.dwell, lower_dwell=teeth.dwell))
     if teeth.rise is not None:
@@ -103,8 +104,7 @@ def test_wrong_data_are_refused() -> None:
     ):
         with pytest.raises(InputError, match="whole number"):
             wrong()
-    with pytest.raises(InputError, match="no swing makes"):
-        exact_swing(example("III"), clutch.teeth(0, 5))
+    assert clutch.teeth(0, 5).swing is None
 
 
 def test_the_lower_dwell_has_a_clutch_of_its_own() -> None:
