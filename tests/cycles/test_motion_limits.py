@@ -276,7 +276,7 @@ def test_joined_motions_of_the_fastest_cycle_never_turn_back(smooth: dict[str, s
 
     ways = [Dwell("90 deg"), Free("30 mm", "90 deg"), Free("5 mm", "60 deg"), Return("35 mm")]
     assert turned_back("0 m/s") < 1e-8
-    if not smooth:
+    if not smooth and degree > 3:
         assert turned_back("-1 m/s") > 0.1
 
 

@@ -45,7 +45,7 @@ NAMED = [*ONCE_REFUSED.values(), *OF_CAMS.values(), *RESIDUALS.values()]
 EVERY = [*CONVEX, *LOCAL, *PIECES, *KINDS, *NAMED, *OF_FORMULAS]
 
 
-@pytest.mark.sample(5)
+@pytest.mark.sample(9)
 @pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 @pytest.mark.parametrize("problem", EVERY, ids=repr)
 def test_every_kind_is_read_again_and_proven(problem: Problem) -> None:

@@ -146,8 +146,8 @@ def test_an_rms_guards_where_a_motor_is_rated_by_it_and_the_front_obeys() -> Non
         for most in (None, "2 N m")
     )
     move = Rise("45 deg", "0.25 s")
-    assert advise(move, drive=weak, points=0, degree=9).guarded == ("velocity", "jerk", "torque")
-    advice = advise(move, drive=rated, points=3, degree=9)
+    assert advise(move, drive=weak, points=0, degree=5).guarded == ("velocity", "jerk", "torque")
+    advice = advise(move, drive=rated, points=3, degree=5)
     assert advice.guarded == ("velocity", "jerk", "torque", "rms torque")
     usual = advice["modified sine"].values
     for law in advice.front:

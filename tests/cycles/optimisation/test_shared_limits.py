@@ -40,7 +40,7 @@ def cycle(segments: Any = MOVES, **others: Any) -> Cycle:
     return Cycle(list(segments), **given)
 
 
-@pytest.mark.parametrize(("minimise", "constant", "nu"), [("jerk", "J", 3), ("rms jerk", "rms_j", 3)])
+@pytest.mark.parametrize(("minimise", "constant", "nu"), sampled([("jerk", "J", 3), ("rms jerk", "rms_j", 3)]))
 def test_equal_moves_share_the_limit_equally(minimise: str, constant: str, nu: int) -> None:
     """A single law under its own bound is the oracle."""
     stroke, duration, most = np.deg2rad(60.0), 0.2, 1.192
