@@ -240,7 +240,7 @@ class _Search:
         return bool(free * _ROWS_EACH <= last - first)
 
     def _squares(self, joints: Sequence[Joint], pieces: int, at: tuple[float, float]) -> float:
-        return self.fitter.solved(*at, joints, pieces)[0]
+        return self.fitter.squares(*at, joints, pieces)
 
     def polynomials(self, at: tuple[float, float]) -> list[CurveFit]:
         """Fits of one polynomial between two rests, of more and more degrees."""
@@ -368,7 +368,7 @@ class _Search:
             tuple(sorted([*others, Joint(float(place), continuity)]))
             for place in np.append(np.linspace(low, high, _MOVED)[1:-1], at)
         ]
-        return min(tried, key=lambda each: self.fitter.solved(fit.start, fit.stop, each, fit.pieces)[0])
+        return min(tried, key=lambda each: self.fitter.squares(fit.start, fit.stop, each, fit.pieces))
 
     def _settled(self, joints: tuple[Joint, ...], fits: list[CurveFit]) -> tuple[tuple[Joint, ...], list[CurveFit]]:
         """Joints and fits with these, which move each other's places."""

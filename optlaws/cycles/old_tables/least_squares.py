@@ -161,6 +161,17 @@ class LeastSquares:
             CurveFit(spline, factor, joints, squares, parameters, len(self.x), self.ends, pieces, self.contact),
         )
 
+    def squares(self, start: float, stop: float, joints: Sequence[Joint], pieces: int) -> float:
+        """The sum of squares, computed once where a search comes back."""
+        key = (start, stop, tuple(joints), pieces)
+        if key not in self._squares:
+            self._squares[key] = self.solved(start, stop, joints, pieces)[0]
+        return self._squares[key]
+
+    @cached_property
+    def _squares(self) -> dict[tuple[float, float, tuple[Joint, ...], int], float]:
+        return {}
+
     @cached_property
     def _about_lines(self) -> tuple[Array, Array]:
         """The sums of squares of the rows before each one about the line before, and of those from it on behind."""
@@ -197,7 +208,7 @@ class LeastSquares:
                 beside = tried[[max(least - 1, 0), min(least + 1, len(tried) - 1)]]
                 width = max(width, 0.5 * float(np.ptp(beside)))
         wide = width
-        middle = self.solved(places[0], places[1], joints, pieces)[0]
+        middle = self.squares(places[0], places[1], joints, pieces)
         while sides and wide > self.fine * step:
             moved = False
             for side in sides:
@@ -218,7 +229,7 @@ class LeastSquares:
     def _with(self, places: Sequence[float], side: int, place: float, joints: Sequence[Joint], pieces: int) -> float:
         """The sum of squares with one end elsewhere."""
         start, stop = (place, places[1]) if side == 0 else (places[0], place)
-        return self.solved(start, stop, joints, pieces)[0] if start < stop else np.inf
+        return self.squares(start, stop, joints, pieces) if start < stop else np.inf
 
     def polynomial_ends(self, at: tuple[float, float]) -> tuple[float, float]:
         """Where the rests beside one polynomial end by the least sum of squares, from places near these on."""
@@ -330,7 +341,7 @@ class LeastSquares:
                 squares = []
                 for place in tried:
                     others = sorted([*moved[:i], Joint(float(place), joint.continuity), *moved[i + 1 :]])
-                    squares.append(self.solved(*fit, others, pieces)[0])
+                    squares.append(self.squares(*fit, others, pieces))
                 moved[i] = Joint(float(tried[int(np.argmin(squares))]), joint.continuity)
         return tuple(sorted(moved))
 

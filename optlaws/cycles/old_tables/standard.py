@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, cached_property
 from itertools import pairwise, product
 from math import log
 from typing import TypeAlias
@@ -257,7 +257,7 @@ class Outline:
         """Chains of standard laws near the rows, the nearest first; they rest about so long where they turn."""
         moves = len(self.places) - 1
         compared = _COMPARED if moves == 1 else _COMBINED if moves <= _MOST_COMBINED else 1
-        best = [self._ranked(move)[:compared] for move in range(moves)]
+        best = [names[:compared] for names in self._ranks]
         outline = self._resting(resting) if resting else self
         chains = [tuple(_woven(names, [""] * (moves - 1) if resting else [])) for names in product(*best)]
         some = outline.of_rows(slice(None, None, max(1, len(self.x) // _COMPARED_BY)))
@@ -289,6 +289,11 @@ class Outline:
         each = np.array([0, *inner, len(self.places) - 1])
         apart = np.array([0.0, *np.tile([-0.5, 0.5], len(inner) // 2), 0.0]) * length
         return replace(self, places=self.places[each] + apart, heights=self.heights[each], known=self.known[each])
+
+    @cached_property
+    def _ranks(self) -> list[list[str]]:
+        """The ranked laws of each move, whether it rests where it turns or not."""
+        return [self._ranked(move) for move in range(len(self.places) - 1)]
 
     def _ranked(self, move: int) -> list[str]:
         """The names of laws by how near they come to the rows of a move, of which the ends are about known."""
