@@ -1,10 +1,8 @@
 """All rows of the printed table: what the printed Z(k) gives, and the optimum of the same shape."""
 
-from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
 
-import numpy as np
 import pytest
 
 from optlaws import (
@@ -15,7 +13,6 @@ from optlaws import (
     Problem,
     Solution,
     law_from_z,
-    smoothstep,
     synthesize,
 )
 from tests.documents import ROOT
@@ -28,8 +25,8 @@ ROWS = [
 every_row = pytest.mark.parametrize(("printed", "exact"), ROWS)
 
 
-def law_of(printed: dict[str, str], z: Sequence[str] | None = None) -> PolynomialLaw:
-    free = [Fraction(text) for text in (printed["z"].split() if z is None else z)]
+def law_of(printed: dict[str, str]) -> PolynomialLaw:
+    free = [Fraction(text) for text in printed["z"].split()]
     if printed["base"] == "S4":
         return law_from_z(BoundaryConditions.rest(4), free)
     # the law with B = 1.75 of Savin's family II, S_3 + k^3 (k-1)^3 8 (k-1/2), carries the rest: over l = 3, the
@@ -55,14 +52,6 @@ def test_the_table_has_thirteen_rows() -> None:
 
 
 @every_row
-def test_the_printed_z_gives_the_printed_peak_velocity(printed: dict[str, str], exact: dict[str, str]) -> None:
-    law = law_of(printed)
-    assert rounded(law.peak(1).value, 3) == exact["B"]
-    assert law.b(0.5) == pytest.approx(float(exact["B"]), abs=1e-4)
-    assert law.c(0.5) == pytest.approx(0.0, abs=1e-2)
-
-
-@every_row
 def test_the_printed_z_gives_the_exact_constants(printed: dict[str, str], exact: dict[str, str]) -> None:
     constants = law_of(printed).constants
     assert rounded(constants.C.value, 4) == exact["C"]
@@ -76,40 +65,6 @@ def test_the_peaks_stand_at_the_exact_places(printed: dict[str, str], exact: dic
     # a peak and its mirror image nearly tie in laws that are symmetric to four digits: either place will do
     assert rounded(mirrored(law.peak(2).k), 4) == exact["k_of_C"]
     assert mirrored(law.power_peak().k) == pytest.approx(float(exact["k_of_D"]), abs=6e-5)
-
-
-@every_row
-def test_printed_constants_are_near_the_exact_ones(printed: dict[str, str], exact: dict[str, str]) -> None:
-    assert (printed["C"], printed["D"]) == (exact["C_printed"], exact["D_printed"])
-    assert float(printed["D"]) == pytest.approx(float(exact["D"]), rel=2.2e-3)
-    misprinted = 0.017 if printed["B"] == "2.6" else 0.006
-    assert float(printed["C"]) == pytest.approx(float(exact["C"]), rel=misprinted)
-
-
-def test_read_in_the_printed_order_the_coefficients_make_no_sense() -> None:
-    wrong = [law_of(row, row["z"].split()[::-1]).peak(1).value for row in PRINTED if row["base"] == "S4"]
-    right = [float(row["B"]) for row in PRINTED if row["base"] == "S4"]
-    assert sum(abs(one - other) < 0.05 for one, other in zip(wrong, right, strict=True)) == 0
-    assert max(wrong) > 3.0
-
-
-def test_the_misprinted_coefficient_of_row_2_406_is_recognised() -> None:
-    (row,) = (row for row in PRINTED if row["B"] == "2.406")
-    wrong = law_of(row, ["-296.8323" if text == "-296.3323" else text for text in row["z"].split()])
-    assert abs(wrong.b(0.5) - 2.406) > 1e-3
-    assert abs(law_of(row).b(0.5) - 2.406) < 1e-5
-
-
-@pytest.mark.parametrize("row", [row for row in PRINTED if row["B"] in {"2.078", "2.461", "2.5"}], ids=lambda r: r["B"])
-def test_three_rows_are_not_quite_symmetric(row: dict[str, str]) -> None:
-    k = np.linspace(0.0, 1.0, 1001)
-    law = law_of(row)
-    assert 1e-5 < float(np.abs(law.a(k) + law.a(1.0 - k) - 1.0).max()) < 8e-3
-
-
-def test_the_paper_s_constants_of_s_4_come_from_a_coarse_grid() -> None:
-    assert rounded(smoothstep(4).c(0.3), 3) == "7.409"
-    assert rounded(smoothstep(4).peak(2).value, 6) == "7.513188"
 
 
 @every_row
