@@ -42,7 +42,7 @@ def velocity() -> Front:
 
 @pytest.fixture(scope="module")
 def power() -> Front:
-    return pareto_front(Problem(B=1.641, order=4), over=("C", "D"), points=8)
+    return pareto_front(Problem(B=1.641, order=4), over=("C", "D"), points=5)
 
 
 def falls(front: Front) -> bool:
@@ -83,7 +83,7 @@ def test_points_lie_evenly(velocity: Front) -> None:
 
 @pytest.mark.long
 def test_points_with_power_agree_with_single_problems(power: Front) -> None:
-    assert len(power) == 8
+    assert len(power) == 5
     assert falls(power)
     for solution in power:
         assert solution.objective == pytest.approx(synthesize(solution.problem).objective, rel=1e-8)
@@ -148,7 +148,7 @@ def test_fronts_of_power_are_proven(problem: Problem, over: tuple[str, str]) -> 
 
 
 def test_fronts_of_power_are_ordered_and_as_many_as_given(power: Front) -> None:
-    assert len(power) == 8
+    assert len(power) == 5
     assert falls(power)
     data = power.to_xarray()
     assert data.D.dims == ("C",)
@@ -193,10 +193,6 @@ def test_a_front_tells_itself(velocity: Front) -> None:
     assert len(content["points"]) == 20
     assert [len(row) for row in velocity.rows] == [len(HEADINGS)] * 20
     assert isinstance(velocity[3], Solution)
-
-
-def test_the_same_question_gives_the_same_front(velocity: Front) -> None:
-    assert (pareto_front(L4, points=20).values == velocity.values).all()
 
 
 def test_neighbours_are_continued(velocity: Front) -> None:
@@ -320,18 +316,8 @@ def test_sides_of_many_values_at_once_are_those_of_each() -> None:
         assert np.interp(values, turns, heights) == pytest.approx(front.upper(values), rel=1e-14)
 
 
-def test_a_front_is_read_as_it_was_written() -> None:
-    for case in ("a bound of an RMS", "a weight", "splines"):
-        problem, over, between, gap = CASES[case]
-        front = proven_front(problem, over, between=between, gap=100.0 * gap)
-        again = ProvenFront.from_dict(front.to_dict())
-        assert again == front
-        assert again.gap == front.gap
-        assert again(between[0]) == front(between[0])
-
-
 def test_unless_given_a_front_lies_where_it_pays() -> None:
-    front = proven_front(REST, gap=1e-3)
+    front = proven_front(REST, gap=1e-2)
     low, high = front.between
     assert low == pytest.approx(1.1297, abs=1e-4)
     assert high == pytest.approx(synthesize(REST).constants.B.value)

@@ -112,7 +112,7 @@ def test_the_same_problem_gives_the_same_floats(problem: Problem) -> None:
 def test_another_process_gives_the_same_floats() -> None:
     problem = SHAPES[1]
     script = (
-        "from optlaws import *\n"
+        "from optlaws import Chebyshev, Problem, synthesize\n"
         f"s = synthesize({problem!r})\n"
         "print(repr(s.objective), repr(s.lower_bound), *map(repr, s.z))"
     )
