@@ -220,10 +220,13 @@ def is_beyond(row: Row) -> bool:
     return all(float(row[name]) == float(value) for name, value in BEYOND.items())
 
 
-@pytest.mark.parametrize("row", rows("lever_tables"), ids=lambda row: f"{row['coef']}-{row['beta']}-{row['lambda']}")
-def test_coefficients_are_the_closed_forms(row: Row) -> None:
-    found = getattr(FourBar(float(row["beta"]), float(row["lambda"] or 1.0)), row["coef"])
-    assert found == pytest.approx(float(row["computed"]), abs=5.1e-7)
+def test_coefficients_are_the_closed_forms() -> None:
+    def found(row: Row) -> float:
+        return float(getattr(FourBar(float(row["beta"]), float(row["lambda"] or 1.0)), row["coef"]))
+
+    table = rows("lever_tables")
+    assert len(table) == 140
+    assert [row for row in table if abs(found(row) - float(row["computed"])) > 5.1e-7] == []
 
 
 @pytest.mark.parametrize("number", ["example1", "example2", "example3", "example4"])
