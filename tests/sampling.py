@@ -9,7 +9,7 @@ from _pytest.mark.structures import ParameterSet
 from hypothesis import settings
 
 #: examples of a property that says nothing of their number, in all and each time
-THOROUGH, QUICK = 100, 15
+THOROUGH, QUICK = 100, 10
 
 
 def sampled(cases: Iterable[Any], each: int = 3) -> list[ParameterSet]:

@@ -128,7 +128,7 @@ def test_energy_is_bounded_by_the_phase_plane(turn: FastestMove) -> None:
     assert np.trapezoid(np.maximum(power, 0.0), k) * energy.duration == pytest.approx(energy.value, rel=1e-6)
 
 
-@pytest.mark.sample(3)
+@pytest.mark.long
 @pytest.mark.parametrize("regeneration", [0.0, 0.5, 1.0])
 def test_the_energy_of_a_lossy_gear_falls_with_the_time_where_the_load_helps(regeneration: float) -> None:
     lift = belt("30 mm", "8 kg", loads=Loads(gravity="0 deg"))

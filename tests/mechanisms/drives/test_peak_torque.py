@@ -67,9 +67,8 @@ def test_a_flywheel_that_bears_a_force_has_a_proven_bound() -> None:
     assert 0.997 * known < press.limit("peak torque", "0 deg", "360 deg", "0.9 s").value < known
 
 
-@pytest.mark.parametrize(
-    ("drive", "degree"), [pytest.param(KNEE, 3, marks=pytest.mark.long), (DRIVEN, 2)], ids=["knee", "geared"]
-)
+@pytest.mark.long
+@pytest.mark.parametrize(("drive", "degree"), [(KNEE, 3), (DRIVEN, 2)], ids=["knee", "geared"])
 def test_a_cycle_of_least_torque_has_this_bound(drive: Drive | Mechanism, degree: int) -> None:
     given: dict[str, Any] = {"period": "1 s", "advance": "360 deg", "drive": drive, "minimise": "torque"}
     cycle = Cycle([Rise("360 deg", "0.8 s", law="modified sine"), Dwell()], **given)
