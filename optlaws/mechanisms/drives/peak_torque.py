@@ -19,6 +19,7 @@ import numpy as np
 from optlaws.formulas.tree import table_places
 from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.numbers import Array
+from optlaws.tolerances import VALUE_ROUNDING
 
 _CELLS = 2000
 _SLOWER = 1e-4  # of the duration: sums over the cells are nearer to the integrals
@@ -27,6 +28,9 @@ _TORQUES, _ROUNDS = 33, 5  # that are tried at once, and how often between the t
 
 def least_peak_torque(drive: Drive, start: float, stroke: float, duration: float) -> float:
     """The torque at the motor, N m, that no motion which never turns back has a lower peak than; computed in doubles.
+
+    It is 0 where the inertia vanishes somewhere, as at the dead centres of a crank without one: there the energy
+    says nothing of the velocity.
 
     Parameters
     ----------
@@ -46,6 +50,9 @@ def least_peak_torque(drive: Drive, start: float, stroke: float, duration: float
     19.62
     """
     path = _Path.of(drive, start, stroke)
+    inertia = path.turning + path.inertia
+    if float(inertia.min()) <= VALUE_ROUNDING * float(inertia.max()):
+        return 0.0
     low, high = 0.0, 1.0
     while not path.allows(np.array([high]), duration)[0]:
         low, high = high, 4.0 * high

@@ -55,6 +55,12 @@ def test_the_phase_plane_has_no_more_where_the_load_drives() -> None:
     assert 0.999 * bound < drive.limit("peak torque", "0 deg", "360 deg", "0.8 s").value < bound
 
 
+def test_of_an_inertia_that_vanishes_the_energy_says_nothing() -> None:
+    """A crank without inertia of its own has none at its dead centres; the search for a torque never ended there."""
+    bare = slider_crank("0.1 m", "0.4 m", bodies={"slider": "12 kg"}, loads=FORCE)
+    assert least_peak_torque(Drive.of_input(bare), 0.0, 2.0 * np.pi, 0.5) == 0.0
+
+
 @pytest.mark.long
 def test_a_flywheel_that_bears_a_force_has_a_proven_bound() -> None:
     """The knee's torque is five times as great as that of the motor; no certificate was found before."""
