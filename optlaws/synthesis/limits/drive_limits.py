@@ -491,17 +491,15 @@ def limit_beside(problem: Problem) -> DriveLimit | None:
     >>> round(limit_beside(problem).value, 5)
     3.40484
     """
-    try:
-        known = plane_of(problem)
-        if known is None:
-            return None
+    known, best = plane_of(problem), None
+    if known is None:
+        return None
+    with suppress(InputError, InfeasibleProblem, SolverFailure):
         best = _cached(*known)
-    except (InputError, InfeasibleProblem, SolverFailure):
-        return None  # nothing is known then
     for plane in within_jerk(known[0], problem):
         with suppress(InputError, InfeasibleProblem, SolverFailure):
             within = _cached_once(plane, *known[1:])
-            if within.value > best.value:
+            if within.value > (0.0 if best is None else best.value):
                 return within
     return best
 

@@ -351,7 +351,8 @@ class ProofCells:
 
     def _affine(self, ends: Array, s: Jet) -> Jet:
         """The affine function in every cell with given values near its ends."""
-        rise, width = ends[1] - ends[0], self.high - self.low
+        with np.errstate(invalid="ignore"):  # prices without end, where an inertia vanishes: nothing is proven by them
+            rise, width = ends[1] - ends[0], self.high - self.low
         # of a cell that is cut to nothing the value at its end is all
         slope = np.divide(rise, width, where=width > 0.0, out=np.zeros(np.broadcast_shapes(rise.shape, width.shape)))
         line: Jet = (s - exact(self.low)) * slope + ends[0]

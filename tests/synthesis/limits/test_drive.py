@@ -434,6 +434,20 @@ def test_a_bound_of_the_jerk_counts(minimise: Callable[[str], Any]) -> None:
     assert "within this jerk" in row.note
 
 
+def test_a_crank_without_inertia_has_a_bound_within_a_jerk() -> None:
+    """At its dead centres no torque keeps the acceleration finite: the jerk does."""
+    press = slider_crank("0.1 m", "0.4 m", bodies={"slider": "12 kg"})
+    torque = press.dimensionless("0 deg", "360 deg", "0.5 s").torque
+    free = Problem(order=3, basis=Powers(11), symmetric=False, monotone=True, minimise=rms(torque))
+    assert limit_beside(free) is None
+    within = replace(free, J=at_most(70.0))
+    limit, law = limit_beside(within), synthesize(within)
+    assert limit is not None
+    assert limit.plane.within_jerk
+    assert limit.contradiction() == ""
+    assert 0.6 * law.objective < limit.value < law.objective
+
+
 @pytest.mark.parametrize("name", ["cycloidal", "modified sine", "4567", "modified trapezoid"])
 def test_no_law_accelerates_more_than_its_jerk_lets_its_velocity(name: str) -> None:
     law = catalogue[name].law
