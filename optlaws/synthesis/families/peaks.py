@@ -105,7 +105,8 @@ def _peaks(series: Array) -> Array:
     values = np.abs(series @ columns)
     greatest: Array = values.max(axis=1)
     share = 1.0 - (np.pi / (2.0 * _DENSITY)) ** 2 / 2.0
-    rising = np.pad(values, ((0, 0), (1, 1)), constant_values=-1.0)
+    rising = np.full((len(values), values.shape[1] + 2), -1.0)
+    rising[:, 1:-1] = values
     tops = (values >= rising[:, :-2]) & (values >= rising[:, 2:]) & (values >= (share * greatest)[:, None])
     law, place = np.nonzero(tops)
     np.maximum.at(greatest, law, _polished(series[law], angle[place], angle[1]))

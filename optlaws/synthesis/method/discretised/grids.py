@@ -18,7 +18,7 @@ _DENSE = 6  # times as many points beside formulas that are no polynomials
 def first_points(program: Program) -> list[Points]:
     """First points of each family, enough for the solution on them to show the contacts."""
     # with no peak to hold them, the velocity constraints need points enough by themselves
-    share = 0.75 if any(len(family.signs) > 1 for family in program.families) else 1.5
+    share = 1.0 if any(len(family.signs) > 1 for family in program.families) else 1.5
     times = _DENSE if _dense(program) else 1
     return [_points(family, times * program.size, share) for family in program.families]
 
