@@ -9,6 +9,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 from scipy.interpolate import make_lsq_spline
+from scipy.ndimage import maximum_filter, median_filter
 
 from optlaws.numbers import Array
 
@@ -26,6 +27,8 @@ LEAST_NOISE = 1e-9
 _FAR_ORDER, _SUSPECT = 6, 6.0
 #: times the noise: the standard deviation of what the filter gives; and rounds of noise and points far off
 _FILTERED, _MOST_ROUNDS = 1.78, 4
+#: points beside each other that may be far off, at most; so many are looked at with what the others are off
+_BURST, _PAIR = 4, 2
 #: degrees of polynomials of the rows on a side of a point, the next one where rows are off by more deviations of noise
 _DEGREES_BESIDE, _FITTING = (2, 3, 4), 2.0
 #: degrees of polynomials of rows on each side of a seam, and by how many standard deviations they may miss each other
@@ -34,8 +37,9 @@ _DEGREES_OVER_SEAM, _STEP = (3, 5, 7), 5.0
 _ROWS_TO_STAND_OUT = 6
 #: rows on each side of a point that are equal, where too few rows tell noise from the motion
 _EQUAL = 3
-#: a point far off is so from where either side goes on, by so much of the size that the filter gives it
-_BOTH = 0.35
+#: a point far off is so from where either side goes on, by so much of the size that the filter gives it; in a longer
+#: burst by nearly all of it
+_BOTH, _ALL = 0.35, 0.75
 #: and by no more of it than noise explains, where no polynomial is near the rows beside: then they tell nothing
 _TOO_FAR = 3.0
 #: noise that is less, in standard deviations of rounding, may be rounding alone
@@ -44,6 +48,8 @@ _BEYOND_ROUNDING = 1.3
 _STILL_FALLING = 0.5
 #: degree and rows of each piece of a spline that goes through any motion
 _DEGREE, _ROWS_OF_PIECE = 5, 4
+#: rows in which noise of their own is seen, times that of most rows; by how much its size may change with the order
+_REGION, _NOISIER, _WHITE = 40, 2.5, 1.6
 #: of the greatest noise: rows with less rest exactly; and deviations from which on a row is no noise of the others
 _NOISY, _FAR_OFF = 0.5, 4.0
 #: of half a window: places in it that are even have no more from where they are
@@ -137,19 +143,18 @@ def samples_of(places: Array, heights: Array, digit: float = 0.0) -> Samples:
         least = np.hypot(least, _scattered_by_places(x, heights))
     heights = _closed_without_speck(x, heights, max(noise_of(x, heights, computed=not unit), float(least.min())))
     rests = _rests_exactly(heights)
-    size = noise_of(x, heights, rests, computed=not unit)
-    suspects = _far_points(x, heights, max(size, float(least.min())))
+    noise = np.full(len(x), noise_of(x, heights, rests, computed=not unit))
+    suspects = _far_points(x, heights, np.maximum(noise, least.min()))
     for _ in range(_MOST_ROUNDS):
-        if not suspects.any():
-            break
         others, before = ~suspects, suspects
         size = noise_of(x[others], heights[others], rests[others], computed=not unit)
-        suspects = _far_points(x, heights, max(size, float(least.min())))
+        noise = np.interp(x, x[others], _noise_by_region(x[others], heights[others], rests[others], size))
+        suspects = _far_points(x, heights, np.maximum(noise, least.min()))
         if np.array_equal(suspects, before):
             break
     if not _tell_noise(rests):
         suspects = suspects & _is_between_equal(heights)
-    return Samples(x, heights, unit, np.where(rests, least, np.maximum(size, least)), suspects)
+    return Samples(x, heights, unit, np.where(rests, least, np.maximum(noise, least)), suspects)
 
 
 def gaps_of(places: Array, heights: Array, room: float) -> list[tuple[float, float]]:
@@ -292,6 +297,22 @@ def noise_of(places: Array, heights: Array, rests: Mask | None = None, *, comput
     return min(sizes, default=0.0)
 
 
+def _noise_by_region(places: Array, heights: Array, rests: Mask, size: float) -> Array:
+    """The noise of each row: a size, and more in regions of many rows whose differences are larger in each order."""
+    noise, sizes = np.full(len(places), size), list[Array]()
+    for order in _ORDERS[1:]:
+        moving = np.asarray(~sliding_window_view(rests, order + 1).any(axis=1))
+        if int(moving.sum()) < 2 * _REGION:
+            return noise
+        differences = np.abs(_differences(difference_weights(places, order), heights))[moving] / MEDIAN
+        middles = np.arange(len(moving))[moving] + 0.5 * order
+        sizes.append(np.interp(np.arange(len(places)), middles, median_filter(differences, _REGION, mode="nearest")))
+    least, greatest = np.min(sizes, axis=0), np.max(sizes, axis=0)
+    # differences of the motion itself fall with the order
+    noise = np.where((least > _NOISIER * size) & (greatest < _WHITE * least), least, noise)
+    return np.asarray(maximum_filter(noise, _REGION, mode="nearest"))  # medians do not tell where a region ends
+
+
 def variance_about_spline(samples: Samples) -> float:
     """The variance about a spline of so many pieces that it goes through any motion, over that of the noise.
 
@@ -407,7 +428,7 @@ def _is_between_equal(heights: Array) -> Mask:
     return np.asarray(np.ptp(np.delete(beside, _EQUAL, axis=1), axis=1) == 0.0)
 
 
-def _far_points(places: Array, heights: Array, noise: float) -> Mask:
+def _far_points(places: Array, heights: Array, noise: Array) -> Mask:
     """Points that stand out of the motion by the filter that is matched to single points far off in differences.
 
     Each is taken out with its size by least squares, of all of them together: points close together hide each other.
@@ -415,10 +436,11 @@ def _far_points(places: Array, heights: Array, noise: float) -> Mask:
     order, count = _FAR_ORDER, len(heights)
     if count <= _ROWS_TO_STAND_OUT * order:
         return np.zeros(count, dtype=bool)
-    over_seam = goes_on(places, heights, np.full(count, noise))
+    over_seam = goes_on(places, heights, noise)
     beside, turn, advance = 2 * order if over_seam else 0, np.ptp(places), heights[-1] - heights[0]
     x = np.concatenate([places[-1 - beside : -1] - turn, places, places[1 : beside + 1] + turn])
     y = np.concatenate([heights[-1 - beside : -1] - advance, heights, heights[1 : beside + 1] + advance])
+    noise = np.concatenate([noise[-1 - beside : -1], noise, noise[1 : beside + 1]])
     weights = difference_weights(x, order)
     spread, differences = _spread_back(weights, weights), _differences(weights, y)
     sizes, seen = np.zeros(len(y)), np.zeros(len(y), dtype=bool)
@@ -426,11 +448,11 @@ def _far_points(places: Array, heights: Array, noise: float) -> Mask:
     taken: list[int] = []
     for _ in range(2 * (count // 20 + 1)):
         filtered = _spread_back(weights, (differences - _differences(weights, sizes))[:, None]) / spread
-        least = max(_FILTERED * noise, float(np.median(np.abs(filtered))) / MEDIAN)
-        outside = np.abs(filtered) * ~seen
+        least = np.maximum(_FILTERED * noise, float(np.median(np.abs(filtered))) / MEDIAN)
+        outside = np.abs(filtered) * ~seen / least
         outside[:order], outside[-order:] = 0.0, 0.0
         worst = int(np.argmax(outside))
-        if outside[worst] <= _SUSPECT * least:
+        if outside[worst] <= _SUSPECT:
             break
         seen[worst] = True
         likely = _nearest_rows(weights, differences - _differences(weights, sizes), worst)
@@ -447,14 +469,15 @@ def _far_points(places: Array, heights: Array, noise: float) -> Mask:
 
 
 def _nearest_rows(weights: Array, differences: Array, worst: int) -> list[dict[int, float]]:
-    """The row that stands out most in differences, or two at or beside it, with their sizes, the likeliest first.
+    """The row that stands out most in differences, or a burst at or beside it, with their sizes, the likeliest first.
 
-    In high differences two points that are off by about the same stand out less than the rows beside them.
+    In high differences points that are off by about the same stand out less than the rows beside them.
     """
     order = weights.shape[1] - 1
     near = slice(max(worst - 2 * order, 0), worst + order + 1)
+    bursts = (range(worst + i, worst + i + rows) for rows in range(2, _BURST + 1) for i in range(-rows, 2))
     tried = []
-    for rows in ([worst], *([worst + i, worst + i + 1] for i in (1, -2, 0, -1))):
+    for rows in ([worst], *map(list, bursts)):
         if order <= rows[0] and rows[-1] <= len(differences) - 1:
             columns = _spread_columns(weights, rows)[near]
             sizes = np.linalg.lstsq(columns, differences[near], rcond=None)[0]
@@ -463,13 +486,28 @@ def _nearest_rows(weights: Array, differences: Array, worst: int) -> list[dict[i
     return [rows for _, rows in sorted(tried, key=lambda each: each[0])]
 
 
-def _are_off(x: Array, y: Array, sizes: Mapping[int, float], noise: float) -> bool:
+def _are_off(x: Array, y: Array, sizes: Mapping[int, float], noise: Array) -> bool:
     """Whether each of few rows is off where both of its sides go on, by enough of its size, without the others'."""
+    if len(sizes) > _PAIR:
+        return _is_burst(x, y, sizes, noise)
     for row, size in sizes.items():
         others = y.copy()
         others[[other for other in sizes if other != row]] -= [sizes[other] for other in sizes if other != row]
-        off = off_both_sides(x, others, row, float(np.sign(size)), noise)
+        off = off_both_sides(x, others, row, float(np.sign(size)), float(noise[row]))
         if not _BOTH * abs(size) < off < _TOO_FAR * abs(size):
+            return False
+    return True
+
+
+def _is_burst(x: Array, y: Array, sizes: Mapping[int, float], noise: Array) -> bool:
+    """Whether each of several rows is off where the rows beside all of them go on, by nearly all of its size."""
+    first, *_, last = sizes
+    for row, size in sizes.items():
+        others = np.array([other for other in range(first, last + 1) if other != row])
+        off = off_both_sides(
+            np.delete(x, others), np.delete(y, others), first, float(np.sign(size)), float(noise[row]), 2 * len(others)
+        )
+        if not max(_ALL * abs(size), _SUSPECT * float(noise[row])) < off < _TOO_FAR * abs(size):
             return False
     return True
 
@@ -484,7 +522,7 @@ def _spread_columns(weights: Array, rows: Sequence[int]) -> Array:
     return columns
 
 
-def off_both_sides(places: Array, heights: Array, row: int, sign: float, noise: float) -> float:
+def off_both_sides(places: Array, heights: Array, row: int, sign: float, noise: float, wider: int = 0) -> float:
     """By how much a point is above where both sides of it go on, or below with the sign -1.
 
     At a joint or a corner a point is where one side goes on; one that is far off is so for both sides. Where the rows
@@ -492,7 +530,8 @@ def off_both_sides(places: Array, heights: Array, row: int, sign: float, noise: 
     """
     off = 0.0
     for degree in _DEGREES_BESIDE:
-        sides = [_beyond(places[rows], heights[rows], places[row], degree) for rows in _beside(row, 2 * degree + 1)]
+        beside = _beside(row, 2 * degree + 1 + wider)
+        sides = [_beyond(places[rows], heights[rows], places[row], degree) for rows in beside]
         off = min(sign * (heights[row] - end) for end, *_ in sides)
         if max(left for _, left, _ in sides) <= (_FITTING * noise) ** 2:
             return float(off)
