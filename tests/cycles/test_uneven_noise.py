@@ -50,3 +50,12 @@ def test_wrong_points_beside_each_other_are_left_out(rows: int, first: int) -> N
     table = split_table(x, np.round(y, 4))
     assert table.outliers == tuple(range(first, first + rows))
     is_read(table, 4.0)
+
+
+def test_many_moves_in_a_turn_without_rest_are_met() -> None:
+    x = np.linspace(0.0, 360.0, 721)
+    y = np.round(6.0 * (1.0 - np.cos(np.radians(8.0 * x))) + 0.5 * np.cos(np.radians(24.0 * x)), 3)
+    table = split_table(x, y)
+    dense = np.linspace(0.0, 360.0, 7201)
+    exact = 6.0 * (1.0 - np.cos(np.radians(8.0 * dense))) + 0.5 * np.cos(np.radians(24.0 * dense))
+    assert np.abs(table.at(dense) - exact).max() < 2e-3

@@ -19,7 +19,7 @@ SIMPLE = 6
 #: variance about a spline, over that of the noise: it is no model
 UNRESOLVED = 9.0
 #: numbers of pieces that are tried
-_PIECES = (1, 2, 3, 4, 5, 6, 8, 10, 13, 17, 22, 29, 38, 50)
+_PIECES = (1, 2, 3, 4, 5, 6, 8, 10, 13, 17, 22, 29, 38, 50, 65, 85, 110, 145)
 #: rows for each free coefficient at least
 _ROWS_EACH = 1.6
 #: numbers of pieces between which a joint is looked for
@@ -108,6 +108,7 @@ def fits_of(
         joints, fits = rough.jointed(fits)
         smoothly = rough, joints, fits
         rough, joints, fits = rough.with_corners(joints, fits)
+        joints, fits = rough.without_needless(joints, fits)
     if explaining and rough.criterion(rough.best(plain)) < rough.criterion(rough.best(fits)):
         refined = [_refined(fitter, fit) for fit in rough.accepted(polynomials)]
         if likely(min(fit.squares for fit in refined), len(places)):
@@ -315,7 +316,7 @@ class _Search:
     def jointed(self, fits: list[CurveFit], joints: tuple[Joint, ...] = ()) -> tuple[tuple[Joint, ...], list[CurveFit]]:
         """Further joints, as smooth as may be, and fits with these, as long as they make the rows far likelier."""
         while len(joints) < _MOST_JOINTS and self.best(fits).pieces > _SIMPLE:
-            tried = [self.joined(fits, joints, pieces) for pieces in _COARSE]
+            tried = [self.joined(fits, joints, pieces) for pieces in (*_COARSE, self.best(fits).pieces)]
             families = [each for each in (*tried, self.joined_where_it_turns(fits, joints)) if each]
             if not families:
                 break
@@ -324,6 +325,18 @@ class _Search:
                 break
             joints, fits = more, family
         return self.smoothed(joints, fits)
+
+    def without_needless(
+        self, joints: tuple[Joint, ...], fits: list[CurveFit]
+    ) -> tuple[tuple[Joint, ...], list[CurveFit]]:
+        """Joints less smooth ones that served wrong ends or missing joints, and fits whose ends are looked for anew."""
+        for joint in [each for each in joints if each.continuity] if len(joints) > 1 else ():
+            best = self.best(fits)
+            others = tuple(each for each in joints if each is not joint)
+            family = self.climbed(others, (best.start, best.stop), None)
+            if family and self.criterion(self.best(family)) < self.criterion(best) - EVIDENT:
+                joints, fits = others, family
+        return joints, fits
 
     def joined(
         self, fits: Sequence[CurveFit], joints: tuple[Joint, ...], pieces: int
