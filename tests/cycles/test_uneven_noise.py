@@ -59,3 +59,15 @@ def test_many_moves_in_a_turn_without_rest_are_met() -> None:
     dense = np.linspace(0.0, 360.0, 7201)
     exact = 6.0 * (1.0 - np.cos(np.radians(8.0 * dense))) + 0.5 * np.cos(np.radians(24.0 * dense))
     assert np.abs(table.at(dense) - exact).max() < 2e-3
+
+
+def test_wrong_points_where_ramps_begin_and_end_are_left_out() -> None:
+    """A parabola between lines was compared with the rows that were there before two of them were left out."""
+    x = np.linspace(0.0, 360.0, 721)
+    turns, speeds = [30.0, 50.0, 160.0, 180.0, 200.0, 310.0, 330.0], [0.0, 0.05, 0.05, 0.0, -0.05, -0.05, 0.0]
+    exact = 0.5 * np.cumsum(np.interp(x, turns, speeds))
+    y = exact + np.random.default_rng(0).normal(0.0, 1e-4, 721)
+    y[[86, 622]] += [-1.4e-3, 1e-3]
+    table = split_table(x, np.round(y, 4))
+    assert set(table.outliers) <= {86, 622}
+    assert np.abs(table.at(x) - exact).max() < 5e-4

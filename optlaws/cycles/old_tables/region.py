@@ -103,7 +103,7 @@ class Region:
                 squares += float(off @ off)
         return squares
 
-    @cached_property
+    @property
     def _meeting(self) -> tuple[float, Array] | None:
         """Where the lines beside it meet, and how far its rows are off these, in deviations of noise."""
         if self.before is None or self.after is None or self.before.slope == self.after.slope:
