@@ -178,3 +178,14 @@ def test_rows_that_are_missing_in_a_move_are_named_and_bound_no_peak() -> None:
     assert not rise.peaks[1].is_known
     assert back.peaks[1].is_known
     assert "no points" not in str(split_table(x, y, digit=1e-4))
+
+
+def test_a_turn_in_rounded_radians_is_one_turn() -> None:
+    """Rows to 6.2832 rad, which is more than 2π by rounding, were read and then refused as a cycle."""
+    x = np.linspace(0.0, 2.0 * np.pi, 361)
+    k = np.degrees(x)
+    law = catalogue["modified sine"].law
+    y = 20.0 * (law(np.clip((k - 30.0) / 100.0, 0.0, 1.0)) - law(np.clip((k - 200.0) / 90.0, 0.0, 1.0)))
+    cycle = split_table(np.round(x, 4), np.round(y, 4), master="rad").cycle(speed="200 rpm")
+    assert cycle.duration == pytest.approx(0.3, rel=1e-12)
+    assert np.abs(1e3 * cycle.at_angle(np.arange(0.0, 360.0)) - y[:-1]).max() < 3e-3

@@ -30,7 +30,8 @@ _TIMES = {"s", "ms"}
 _USELESS = 10.0  # times the lower end of an interval: an upper end that is more tells nothing
 _MOST_NAMED = 8  # places that a remark lists
 _MOVING = 1e-3  # of the greatest velocity of a stretch: it begins with one that is more
-_WHOLE_TURN = 1e-6  # of a turn: by how much rows that are one may be longer or shorter
+#: of a turn: by how much rows that are one may be longer or shorter; one of 2π rad is rounded
+_WHOLE_TURN, _WHOLE_TURN_IN_RAD = 1e-6, 1e-4
 _ROUNDER = 9.0  # times the unit to which one length is rounded: another one is rounder
 
 
@@ -108,7 +109,8 @@ class OldTable:
         first, last = self.stretches[0], self.stretches[-1]
         turn, times = last.stop - first.start, self.master in _TIMES
         of_turn = whole_turn(None, self.master)
-        if not self.whole and of_turn and abs(turn - of_turn) > _WHOLE_TURN * of_turn:
+        near = _WHOLE_TURN_IN_RAD if self.master == "rad" else _WHOLE_TURN
+        if not self.whole and of_turn and abs(turn - of_turn) > near * of_turn:
             raise InputError(
                 f"the rows go over {turn:.9g} {self.master}, and a turn of the master is {of_turn:.9g}: say by turn "
                 "how long it is, such as '720 deg', or by lobes how often the rows follow each other in it"
@@ -135,7 +137,8 @@ class OldTable:
         segments: list[CycleSegment] = []
         for part in self.stretches:
             length = part.stop - part.start
-            duration = Exact(length, self.master) if times or not self.whole else Exact(360.0 * length / turn, "deg")
+            as_given = times or (not self.whole and turn == of_turn)
+            duration = Exact(length, self.master) if as_given else Exact(360.0 * length / turn, "deg")
             if part.law is None:
                 segments.append(Dwell(duration))
             else:
