@@ -316,7 +316,7 @@ class _Search:
     def jointed(self, fits: list[CurveFit], joints: tuple[Joint, ...] = ()) -> tuple[tuple[Joint, ...], list[CurveFit]]:
         """Further joints, as smooth as may be, and fits with these, as long as they make the rows far likelier."""
         while len(joints) < _MOST_JOINTS and self.best(fits).pieces > _SIMPLE:
-            tried = [self.joined(fits, joints, pieces) for pieces in (*_COARSE, self.best(fits).pieces)]
+            tried = [self.joined(fits, joints, pieces) for pieces in _COARSE]
             families = [each for each in (*tried, self.joined_where_it_turns(fits, joints)) if each]
             if not families:
                 break
