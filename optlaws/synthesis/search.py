@@ -14,6 +14,7 @@ from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.laws import MotionLaw
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.method.exchange import IPOPT, ROUNDS, Method, Outcome, solve
 from optlaws.synthesis.method.without_interior import fallbacks_without_interior, on_equations
@@ -73,7 +74,8 @@ class LawSearch:
 
     def answer(self) -> Solution | None:
         """The best law from all starts, with its proof; None if no start gives a law."""
-        self._try_starts()
+        if not self._contradictory():
+            self._try_starts()
         if not self.candidates:
             return None
         plain = best = self._tightened(self.candidates[0])
@@ -104,6 +106,22 @@ class LawSearch:
         from optlaws.synthesis.proof.infeasible import failure
 
         return failure(self.problem, self.outcomes[0])
+
+    def _contradictory(self) -> bool:
+        """Whether bounds beside formulas that are not convex leave no law: known before any of their starts."""
+        of_formulas = any(isinstance(family, FormulaFamily) for family in self.model.program.families)
+        if self.problem.convex or self.warm is not None or not of_formulas:
+            return False
+        from optlaws.synthesis.method import starts
+        from optlaws.synthesis.proof.infeasible import failure
+
+        if next(starts.points(self.model, self.method), None) is not None:
+            return False
+        none = Outcome(None, 0, 0, "the bounds leave no law")
+        if isinstance(failure(self.problem, none), SolverFailure):
+            return False
+        self.outcomes.append(none)
+        return True
 
     def _try_starts(self) -> None:
         """A drive's limit, a neighbour's optimum or the default start; where several may be, others until two agree."""
