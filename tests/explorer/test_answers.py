@@ -407,9 +407,9 @@ def test_a_cam_beyond_its_limits_is_not_called_free_of_undercut() -> None:
 
 def test_a_cam_that_is_undercut_says_so_and_one_that_is_none_why() -> None:
     study = cam_view.example()
-    circle, roller = cam_view.sizes(CycleRequest(study=study))["facts"][-3:-1]
-    least = float(circle.removeprefix("least prime circle, by the pressure angle ").split()[0])
-    assert roller.startswith("greatest roller ")
+    facts = cam_view.sizes(CycleRequest(study=study))["facts"]
+    sizes = "least prime circle, by the pressure angle ", "greatest roller "
+    least, _ = (next(float(fact[len(size) :].split()[0]) for fact in facts if fact.startswith(size)) for size in sizes)
     for radius, beyond in ((least, False), (least * 0.999, True)):
         view = cam_view.answer(CycleRequest(study=study | {"prime_radius": f"{radius + 1e-5} mm"}))
         assert view["panels"][1]["beyond"] == beyond
