@@ -27,8 +27,9 @@ LEAST_NOISE = 1e-9
 _FAR_ORDER, _SUSPECT = 6, 6.0
 #: times the noise: the standard deviation of what the filter gives; and rounds of noise and points far off
 _FILTERED, _MOST_ROUNDS = 1.78, 4
-#: points beside each other that may be far off, at most; so many are looked at with what the others are off
-_BURST, _PAIR = 4, 2
+#: points beside each other that may be far off, at most; so many are looked at with what the others are off, and no
+#: more in a table of fewer rows
+_BURST, _PAIR, _ROWS_OF_BURST = 4, 2, 100
 #: degrees of polynomials of the rows on a side of a point, the next one where rows are off by more deviations of noise
 _DEGREES_BESIDE, _FITTING = (2, 3, 4), 2.0
 #: degrees of polynomials of rows on each side of a seam, and by how many standard deviations they may miss each other
@@ -475,7 +476,8 @@ def _nearest_rows(weights: Array, differences: Array, worst: int) -> list[dict[i
     """
     order = weights.shape[1] - 1
     near = slice(max(worst - 2 * order, 0), worst + order + 1)
-    bursts = (range(worst + i, worst + i + rows) for rows in range(2, _BURST + 1) for i in range(-rows, 2))
+    most = _BURST if len(differences) > _ROWS_OF_BURST else _PAIR
+    bursts = (range(worst + i, worst + i + rows) for rows in range(2, most + 1) for i in range(-rows, 2))
     tried = []
     for rows in ([worst], *map(list, bursts)):
         if order <= rows[0] and rows[-1] <= len(differences) - 1:
