@@ -26,6 +26,9 @@ def waves_of(places: Array, residuals: Array, noise: float) -> tuple[tuple[float
     >>> residuals = np.random.default_rng(1).normal(0.0, 5e-3, 721) + 3e-3 * np.sin(30.0 * np.radians(x))
     >>> [(round(size, 4), round(float(np.degrees(number)), 1)) for size, number in waves_of(x, residuals, 5e-3)]
     [(0.003, 30.0)]
+    >>> few = slice(0, None, 17)  # 43 rows show one number of waves
+    >>> [round(float(np.degrees(number)), 1) for _, number in waves_of(x[few], np.sin(6.0 * np.radians(x[few])), 5e-3)]
+    [6.0]
     """
     from scipy.signal import lombscargle
 
@@ -33,7 +36,7 @@ def waves_of(places: Array, residuals: Array, noise: float) -> tuple[tuple[float
     numbers = 2.0 * np.pi / turn * np.arange(_FEWEST_WAVES, count // _ROWS_OF_WAVE)
     if noise <= 0.0 or not len(numbers):
         return ()
-    powers = np.asarray(lombscargle(places, residuals, numbers)) / noise**2
+    powers = np.atleast_1d(lombscargle(places, residuals, numbers)) / noise**2  # it has no axis for one number
     far = np.flatnonzero(powers > _POWER)
     return tuple((float(2.0 * noise * np.sqrt(powers[i] / count)), float(numbers[i])) for i in far)
 
