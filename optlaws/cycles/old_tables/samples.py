@@ -49,7 +49,8 @@ _BEYOND_ROUNDING = 1.3
 _STILL_FALLING = 0.5
 #: degree and rows of each piece of a spline that goes through any motion
 _DEGREE, _ROWS_OF_PIECE = 5, 4
-#: rows in which noise of their own is seen, times that of most rows; by how much its size may change with the order
+#: rows in which noise of their own is seen, a quarter of those that move at most, times that of most rows; by how much
+#: its size may change with the order
 _REGION, _NOISIER, _WHITE = 40, 2.5, 1.6
 #: of the greatest noise: rows with less rest exactly; and deviations from which on a row is no noise of the others
 _NOISY, _FAR_OFF = 0.5, 4.0
@@ -303,7 +304,7 @@ def _noise_by_region(places: Array, heights: Array, rests: Mask, size: float) ->
     noise, sizes = np.full(len(places), size), list[Array]()
     for order in _ORDERS[1:]:
         moving = np.asarray(~sliding_window_view(rests, order + 1).any(axis=1))
-        if int(moving.sum()) < 2 * _REGION:
+        if int(moving.sum()) < 4 * _REGION:
             return noise
         differences = np.abs(_differences(difference_weights(places, order), heights))[moving] / MEDIAN
         middles = np.arange(len(moving))[moving] + 0.5 * order
