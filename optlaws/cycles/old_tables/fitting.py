@@ -108,7 +108,7 @@ def fits_of(
         joints, fits = rough.jointed(fits)
         smoothly = rough, joints, fits
         rough, joints, fits = rough.with_corners(joints, fits)
-        joints, fits = rough.without_needless(joints, fits)
+        joints, fits = rough.without_redundant_joints(joints, fits)
     if explaining and rough.criterion(rough.best(plain)) < rough.criterion(rough.best(fits)):
         refined = [_refined(fitter, fit) for fit in rough.accepted(polynomials)]
         if likely(min(fit.squares for fit in refined), len(places)):
@@ -326,7 +326,7 @@ class _Search:
             joints, fits = more, family
         return self.smoothed(joints, fits)
 
-    def without_needless(
+    def without_redundant_joints(
         self, joints: tuple[Joint, ...], fits: list[CurveFit]
     ) -> tuple[tuple[Joint, ...], list[CurveFit]]:
         """Joints less smooth ones that served wrong ends or missing joints, and fits whose ends are looked for anew."""

@@ -148,12 +148,12 @@ def samples_of(places: Array, heights: Array, digit: float = 0.0) -> Samples:
     noise = np.full(len(x), noise_of(x, heights, rests, computed=not unit))
     suspects = _far_points(x, heights, np.maximum(noise, least.min()))
     for _ in range(_MOST_ROUNDS):
-        others, before = ~suspects, suspects
+        others, before = ~suspects, noise
         size = noise_of(x[others], heights[others], rests[others], computed=not unit)
         noise = np.interp(x, x[others], _noise_by_region(x[others], heights[others], rests[others], size))
-        suspects = _far_points(x, heights, np.maximum(noise, least.min()))
-        if np.array_equal(suspects, before):
+        if np.array_equal(noise, before):
             break
+        suspects = _far_points(x, heights, np.maximum(noise, least.min()))
     if not _tell_noise(rests):
         suspects = suspects & _is_between_equal(heights)
     return Samples(x, heights, unit, np.where(rests, least, np.maximum(noise, least)), suspects)
@@ -480,7 +480,7 @@ def _nearest_rows(weights: Array, differences: Array, worst: int) -> list[dict[i
     most = _BURST if len(differences) > _ROWS_OF_BURST else _PAIR
     bursts = (range(worst + i, worst + i + rows) for rows in range(2, most + 1) for i in range(-rows, 2))
     tried = []
-    for rows in ([worst], *map(list, bursts)):
+    for rows in ([worst], *bursts):
         if order <= rows[0] and rows[-1] <= len(differences) - 1:
             columns = _spread_columns(weights, rows)[near]
             sizes = np.linalg.lstsq(columns, differences[near], rcond=None)[0]
@@ -504,12 +504,10 @@ def _are_off(x: Array, y: Array, sizes: Mapping[int, float], noise: Array) -> bo
 
 def _is_burst(x: Array, y: Array, sizes: Mapping[int, float], noise: Array) -> bool:
     """Whether each of several rows is off where the rows beside all of them go on, by nearly all of its size."""
-    first, *_, last = sizes
+    first, wider = min(sizes), 2 * (len(sizes) - 1)
     for row, size in sizes.items():
-        others = np.array([other for other in range(first, last + 1) if other != row])
-        off = off_both_sides(
-            np.delete(x, others), np.delete(y, others), first, float(np.sign(size)), float(noise[row]), 2 * len(others)
-        )
+        places, heights = (np.delete(values, [other for other in sizes if other != row]) for values in (x, y))
+        off = off_both_sides(places, heights, first, float(np.sign(size)), float(noise[row]), wider)
         if not max(_ALL * abs(size), _SUSPECT * float(noise[row])) < off < _TOO_FAR * abs(size):
             return False
     return True
