@@ -84,11 +84,11 @@ class StructureSegment:
         known = States.unpacked(self.rows[:1], self.structure)
         return replace(states, u=np.where(self.structure.free, states.u, known.u))
 
-    def nearest(self, t: float) -> tuple[float, ActiveSet]:
-        """How far off the law is that is known nearest to a place, and its active set."""
+    def nearest(self, t: float) -> ActiveSet:
+        """The active set of the law that is known nearest to a place."""
         place = int(np.argmin(np.abs(self.t - t)))
         state, structure = States.unpacked(self.rows[place : place + 1], self.structure), self.structure
-        near = ActiveSet(
+        return ActiveSet(
             x=state.x[0],
             family=structure.family,
             u=state.u[0],
@@ -97,7 +97,6 @@ class StructureSegment:
             multipliers=state.weights[0],
             equality_multipliers=state.equations[0],
         )
-        return abs(float(self.t[place]) - t), near
 
     def joined(self, t: Array, rows: Array) -> None:
         """Further states of the segment."""
@@ -136,7 +135,8 @@ def laws_along(path: Path, t: Array, segments: list[StructureSegment] | None = N
 
 def _nearest(segments: list[StructureSegment], t: float) -> ActiveSet | None:
     """The active set of the law that is known nearest to a place of the path; None where none is known."""
-    return min((segment.nearest(t) for segment in segments), key=lambda known: known[0], default=(0.0, None))[1]
+    segment = min(segments, key=lambda known: float(np.abs(known.t - t).min()), default=None)
+    return None if segment is None else segment.nearest(t)
 
 
 def segment_at(path: Path, t: float, near: ActiveSet | None) -> StructureSegment | None:
