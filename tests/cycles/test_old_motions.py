@@ -78,6 +78,15 @@ def test_two_specks_of_one_size_beside_each_other_are_both_left_out(seed: int) -
     assert table.peaks[1].holds(cam.acceleration)
 
 
+def test_of_two_specks_beside_each_other_neither_hides_the_other() -> None:
+    """Each is among the rows whose polynomial goes on to the other, which is that without the row farthest off it."""
+    x, law = np.linspace(0.0, 360.0, 361), catalogue["cycloidal"].law
+    y = 20.0 * (law(np.clip((x - 40.0) / 90.0, 0.0, 1.0)) - law(np.clip((x - 190.0) / 90.0, 0.0, 1.0)))
+    y += np.random.default_rng(70).normal(0.0, 2e-3, 361)
+    y[[70, 72]] += 0.1
+    assert split_table(x, np.round(y, 4), digit=1e-4).outliers == (70, 72)
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_a_move_that_begins_where_its_noisy_table_does(seed: int) -> None:
     """Its first rows, which noise hides, look like a rest; that of the table's end goes on to its seam."""

@@ -382,6 +382,14 @@ MADE: dict[str, Callable[[], MoveLimit]] = {
 }
 
 
+@pytest.mark.parametrize(("load", "peak"), [("60*x", 30.0), ("5 N m", 5.0)])
+def test_the_peak_that_a_load_takes_in_any_time_is_bounded_and_attained(load: str, peak: float) -> None:
+    """A spring takes its mean torque over the stroke, a weight what it weighs, however slowly either is moved."""
+    proof = proof_of(Mechanism("1 kg m^2", load=load), "time", "0 rad", "1 rad", limits={"torque": "2 N m"})
+    assert 0.99 * peak < proof.value <= peak
+    assert proof.attained == pytest.approx(peak, rel=1e-9)
+
+
 #: of a drive and of a mechanism, with an energy and without, and a proof that there is none
 ENTRIES = [name for name in MADE if name.startswith(("peak torque of", "energy", "rms torque w", "proof that the t"))]
 
