@@ -278,7 +278,7 @@ def test_tables_of_other_run_times(tmp_path: Path) -> None:
     file = tmp_path / "cam.cpp"
     file.write_text(f"// a demo\nstatic McCamXYVA cam_table[61] = {{ {rows} }};\nint main() {{ return 0; }}\n")
     table = read_cycle_table(file)
-    assert (table.layout, table.master) == ("RTmotion McCamXYVA", "turn")
+    assert (table.layout, table.master) == ("RTmotion McCamXYVA without a unit, taken as mm", "turn")
     assert [part.law for part in table.moves] == ["cycloidal", "cycloidal"]
     assert table.cycle(speed="60 rpm").duration == pytest.approx(1.0)
 

@@ -1,5 +1,7 @@
 """Tables of whole cycles: their parts, the laws that they are, and better ones within a tolerance."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from scipy.interpolate import BPoly
@@ -60,7 +62,7 @@ def test_noise_and_a_seam_are_reported() -> None:
     assert "from the first one" in str(split)
 
 
-def test_a_file_of_a_cycle_is_read(tmp_path) -> None:  # type: ignore[no-untyped-def] # noqa: ANN001
+def test_a_file_of_a_cycle_is_read(tmp_path: Path) -> None:
     x, y = table("modified sine", "cycloidal", 3)
     file = tmp_path / "old.csv"
     file.write_text("degree;mm\n" + "\n".join(f"{a:g};{b:.3f}".replace(".", ",") for a, b in zip(x, y, strict=True)))
@@ -69,6 +71,27 @@ def test_a_file_of_a_cycle_is_read(tmp_path) -> None:  # type: ignore[no-untyped
     assert split.cycle(speed="200 rpm").duration == pytest.approx(0.3)
     whole = Cycle(PROGRAMME, speed="200 rpm")
     assert split.cycle(speed="200 rpm").duration == whole.duration
+
+
+@pytest.mark.parametrize(
+    ("above", "separator", "units"),
+    [
+        ("# deg,in", ",", ("deg", "in")),
+        ("# angle [deg], lift [in]", ",", ("deg", "in")),
+        ("an old cam\n// deg m\n", " ", ("deg", "m")),
+        ("# an old one in m", " ", ("deg", "mm")),
+        ("# by hand,in m", ",", ("deg", "m")),
+        ("", ",", ("deg", "mm")),
+    ],
+)
+def test_a_heading_may_be_a_comment(tmp_path: Path, above: str, separator: str, units: tuple[str, str]) -> None:
+    x, y = table("modified sine", "cycloidal", 3)
+    file = tmp_path / "old.csv"
+    rows = [f"{a:g}{separator}{b:.3f}" for a, b in zip(x, y, strict=True)]
+    file.write_text("\n".join([above, *rows]))
+    read = read_cycle_table(file)
+    assert (read.master, read.unit) == units
+    assert ("without a unit, taken as mm" in read.layout) == (units[1] == "mm")
 
 
 @pytest.mark.parametrize(

@@ -62,7 +62,10 @@ def points_in(
             if unit is None and about is None:
                 raise InputError("positions of ROS are in m or rad: say which as the unit")
         of_master = master or stated.master or _unit_in(points.units.master, ("angle", "time")) or supposed
-        of_slave = unit or stated.slave or _unit_in(points.units.slave, ("length", "angle")) or "mm"
+        of_slave = unit or stated.slave or _unit_in(points.units.slave, ("length", "angle"))
+        if of_slave is None:
+            of_slave = "mm"
+            points = replace(points, layout=f"{points.layout} without a unit, taken as {of_slave}")
         size, slave = _sized(of_slave, ("length", "angle"), "unit")
         step, whole = _sized(of_master, ("angle", "time", "length"), "master")
     speed = _RATE.search(content[:10_000])

@@ -32,6 +32,8 @@ _HEADER, _BLANK = re.compile(r"([A-Za-z][\w \t-]*?)\s*=\s*(\S+)"), re.compile(r"
 _KEYWORD = re.compile(r"[\s;]")
 _SEPARATORS = (";", "\t", ",", "|", None)
 _LOOKED_AT = 500  # lines by which the separator is chosen
+#: a line that is a comment alone
+_COMMENT = re.compile(r"(?:#|//)\s*(.*)")
 #: a heading up to its unit
 _HEADING = re.compile(r"[^\s,;(\[]*")
 #: columns of tables that optlaws writes
@@ -207,7 +209,16 @@ def _lines_of(content: str, name: str) -> tuple[list[_Line], list[str]]:
     if first is None:
         form = "lines of a time or an angle and a displacement, such as 7.5,0.0959"
         raise InputError(f"{name} holds no points: {form}{_no_points(lines)}")
-    return lines[first:], lines[first - 1].cells if first else []
+    headings = _commented_headings(content, lines[first], separator) or (lines[first - 1].cells if first else [])
+    return lines[first:], headings
+
+
+def _commented_headings(content: str, first: _Line, separator: str | None) -> list[str]:
+    """The headings in a comment right above the first point that has as many cells; none where there is no such one."""
+    above = (line.strip() for line in reversed(content.splitlines()[: first.number - 1]))
+    comment = _COMMENT.match(next(filter(None, above), ""))
+    headings = cells_of(comment[1], separator) if comment else []
+    return headings if len(headings) == len(first.cells) else []
 
 
 def _no_points(lines: Sequence[_Line]) -> str:
