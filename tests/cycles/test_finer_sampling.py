@@ -75,3 +75,11 @@ def test_finer_sampling_splits_a_table_alike(name: str, noise: float, steps: lis
         assert len(table.corners) == (4 if motion is corners else 0)
         assert table.outliers == ()
         assert motion is corners or table.peaks[1].holds(acceleration)
+
+
+@pytest.mark.parametrize("seed", [3, 16])
+def test_a_slow_turn_in_noise_is_no_dwell(seed: int) -> None:
+    x = np.linspace(0.0, 360.0, 361)
+    y = harmonics(x) + np.random.default_rng(seed).normal(0.0, 3e-3, len(x))
+    table = split_table(x, np.round(y, 4), digit=1e-4)
+    assert [part.kind for part in table.stretches] == ["return", "rise", "return"]

@@ -10,6 +10,9 @@ from optlaws.cycles.old_tables.curve_fit import CurveFit
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval
 from optlaws.cycles.old_tables.standard import criterion
 
+#: of the places where an end was looked for: about the farthest one
+_AT_BOUND = 1e-3
+
 
 @dataclass(frozen=True, eq=False)
 class FittedMove:
@@ -46,6 +49,16 @@ class FittedMove:
     def is_corner(self) -> bool:
         """Whether it is the place alone at which two lines meet."""
         return self.start == self.stop
+
+    @property
+    def ends_at_bounds(self) -> list[float]:
+        """Its ends that lie as far within the rests beside it as these were looked for."""
+        ends = []
+        for fit in self.fits[:1]:
+            (before, after), near = fit.ends, [_AT_BOUND * (end.high - end.low) for end in fit.ends]
+            ends += [fit.start] if self.start == fit.start <= before.low + near[0] and before.line else []
+            ends += [fit.stop] if self.stop == fit.stop >= after.high - near[1] and after.line else []
+        return ends
 
     def position_before(self, place: float) -> float:
         """The position at a place before it, on the line from which it starts."""

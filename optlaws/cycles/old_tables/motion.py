@@ -77,8 +77,13 @@ def _motion_of(samples: Samples, clean: Samples, share: float) -> FittedMotion:
     plain = doubtful if len(doubtful) == len(rests) else _explaining_crests(clean, rests, advance, known)
     begun, rests, divided = _divided(clean, plain, advance, known)
     if not divided.moves or not all(move.name or move.is_corner for move in divided.moves):
-        begun, rests, divided = _divided(clean, crests, advance, known)
-        while untried := [middle for middle in _doubtful(begun, rests) if middle not in tried]:
+        other = _divided(clean, crests, advance, known)
+        all_crests = bool(plain and divided.moves)
+        if all_crests and divided.criterion(len(clean.places)) < other[2].criterion(len(clean.places)):
+            crests = plain
+        else:
+            begun, rests, divided = other
+        while untried := [middle for middle in _doubtful(begun, rests, divided.moves) if middle not in tried]:
             tried.append(untried[0])
             other = _divided(clean, [*crests, untried[0]], advance, known)
             if other[2].criterion(len(clean.places)) < divided.criterion(len(clean.places)):
@@ -118,7 +123,7 @@ def _explaining_crests(
     samples: Samples, rests: Sequence[Line], advance: float, known: dict[object, Region]
 ) -> list[float]:
     """The middles of rests, not long ones, that are crests where standard laws explain the rows far better then."""
-    doubtful = _doubtful(samples, rests, _NOT_LONG)
+    doubtful = _doubtful(samples, rests, short=_NOT_LONG)
     if not doubtful:
         return []
     tried = list[tuple[float, list[float]]]()
@@ -131,8 +136,14 @@ def _explaining_crests(
     return min(tried, key=lambda each: each[0], default=(0.0, list[float]()))[1]
 
 
-def _doubtful(samples: Samples, rests: Sequence[Line], short: float = _SHORT) -> list[float]:
-    """The middles of short rests in noise, also over the end of a turn, which may be the crest of one motion."""
+def _doubtful(
+    samples: Samples, rests: Sequence[Line], moves: Sequence[FittedMove] = (), short: float = _SHORT
+) -> list[float]:
+    """The middles of rests in noise, also over the end of a turn, which may be the crest of one motion.
+
+    These are the short ones, and those into which a move beside them reaches as far as it may.
+    """
+    reached = [at for move in moves for at in move.ends_at_bounds]
     x, y = samples.places, samples.heights
     most, over_end = short * float(np.ptp(x)), 0.0
     if rests and rests[0].first == 0 and rests[-1].last == len(x) - 1:
@@ -140,7 +151,8 @@ def _doubtful(samples: Samples, rests: Sequence[Line], short: float = _SHORT) ->
     middles = []
     for rest in rests:
         length = over_end if over_end and rest in (rests[0], rests[-1]) else x[rest.last] - x[rest.first]
-        if length < most and np.ptp(y[rest.first : rest.last + 1]) > 0.0:
+        near = any(x[rest.first] <= at <= x[rest.last] for at in reached)
+        if (length < most or near) and np.ptp(y[rest.first : rest.last + 1]) > 0.0:
             middles.append(float(0.5 * (x[rest.first] + x[rest.last])))
     return middles
 
