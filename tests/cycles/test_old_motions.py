@@ -78,28 +78,6 @@ def test_two_specks_of_one_size_beside_each_other_are_both_left_out(seed: int) -
     assert table.peaks[1].holds(cam.acceleration)
 
 
-def test_of_two_specks_beside_each_other_neither_hides_the_other() -> None:
-    """Each is among the rows whose polynomial goes on to the other, which is that without the row farthest off it."""
-    x, law = np.linspace(0.0, 360.0, 361), catalogue["cycloidal"].law
-    y = 20.0 * (law(np.clip((x - 40.0) / 90.0, 0.0, 1.0)) - law(np.clip((x - 190.0) / 90.0, 0.0, 1.0)))
-    y += np.random.default_rng(70).normal(0.0, 2e-3, 361)
-    y[[70, 72]] += 0.1
-    assert split_table(x, np.round(y, 4), digit=1e-4).outliers == (70, 72)
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_a_move_that_begins_where_its_noisy_table_does(seed: int) -> None:
-    """Its first rows, which noise hides, look like a rest; that of the table's end goes on to its seam."""
-    law = catalogue["modified sine"].law
-    theta = np.arange(0.0, 360.2, 0.4)
-    lift = 40.0 * (law(np.clip(theta / 110.0, 0.0, 1.0)) - law(np.clip((theta - 200.0) / 100.0, 0.0, 1.0)))
-    noise = np.random.default_rng(100 + seed).normal(0.0, 0.004, len(theta))
-    table = split_table(theta, np.round(lift + noise, 4))
-    assert [part.law for part in table.moves] == ["modified sine"] * 2
-    ends = [end for part in table.moves for end in (part.start, part.stop)]
-    assert ends == pytest.approx([0.0, 110.0, 200.0, 300.0], abs=0.01)
-
-
 def measured(law: str, seed: int, places: np.ndarray, up: float = 63.9, down: float = 93.6) -> np.ndarray:
     """A cam of 33.42 mm that rises from 30 deg on and returns from 180 deg on, with 5 um of noise."""
     motion = LAWS_OF_NOBODY.get(law) or catalogue[law].law
@@ -108,46 +86,10 @@ def measured(law: str, seed: int, places: np.ndarray, up: float = 63.9, down: fl
 
 
 EVEN = np.linspace(0.0, 360.0, 901)
-UNEVEN = np.unique(np.random.default_rng(1).choice(3600, 1200)) / 10.0
 #: the acceleration of the first one jumps at its ends
 LAWS_OF_NOBODY: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "cubic and quintic": np.polynomial.Polynomial([0, 0, 2.1, 1.6, -4.5, 1.8]), "smooth": smoothstep(6),
 }  # fmt: skip
-
-
-@pytest.mark.parametrize("places", [np.delete(EVEN, 300), np.delete(EVEN, [100, 150, 173, 223, 500]), UNEVEN])
-def test_rows_left_out_and_uneven_places_hide_no_speck(places: np.ndarray) -> None:
-    heights = measured("cycloidal", 0, places)
-    at = int(np.searchsorted(places, 68.8))
-    heights[at] += 0.1
-    table = split_table(places, heights, turn=360.0)
-    assert table.outliers == (at,)
-    assert table.scatter < 0.008
-    assert [part.law for part in table.moves] == ["cycloidal"] * 2
-
-
-@pytest.mark.parametrize(("seed", "at"), [(31, 104.8), (44, 109.6), (48, 182.0), (51, 268.8)])
-def test_a_speck_in_the_slow_end_of_a_move_divides_nothing(seed: int, at: float) -> None:
-    heights = measured("cycloidal", seed, EVEN, 80.0, 90.0)
-    row = round(at / 0.4)
-    heights[row] += 0.054
-    table = split_table(EVEN, heights)
-    assert [part.law for part in table.stretches] == [None, "cycloidal", None, "cycloidal", None]
-    assert table.outliers == (row,)
-
-
-@pytest.mark.sample(6)
-@pytest.mark.parametrize("seed", range(6))
-def test_crests_of_noisy_harmonics_are_no_rests(seed: int) -> None:
-    """A rise of 160 deg and a return of 200 deg, of which the noise hides some degrees at both turns."""
-    law, noise = catalogue["simple harmonic"].law, np.random.default_rng(seed).normal(0.0, 0.005, len(EVEN))
-    lift = 33.42 * (law(np.clip(EVEN / 160.0, 0, 1)) - law(np.clip((EVEN - 160.0) / 200.0, 0, 1)))
-    table = split_table(EVEN, np.round(lift + noise, 4))
-    assert [(part.law, round(part.stop)) for part in table.stretches] == [
-        ("simple harmonic", 160),
-        ("simple harmonic", 360),
-    ]
-    assert table.peaks[1].holds(33.42 * law.constants.C.value / 160.0**2)
 
 
 def test_no_window_of_few_rows_claims_more_than_a_motion_has() -> None:
@@ -242,23 +184,6 @@ def test_an_endless_table_without_its_last_row() -> None:
         split_table(table.places, table.heights, advance=90.0)
 
 
-def index_that_moves_up_to_its_seam() -> tuple[np.ndarray, np.ndarray]:
-    """Four dwells and cycloidal moves in a turn, the last one up to the end of the turn, without the row of this."""
-    x, law = np.arange(1440) / 4.0, catalogue["cycloidal"].law
-    steps = [90.0 * np.asarray(law(np.clip((x - 90.0 * i - 30.0) / 60.0, 0.0, 1.0))) for i in range(4)]
-    return x, np.round(sum(steps) + np.random.default_rng(114).normal(0.0, 5e-3, 1440), 3)
-
-
-@pytest.mark.parametrize("frame", [{}, {"turn": 360.0}, {"advance": 360.0}])
-def test_an_endless_index_of_a_turn_but_its_last_row_is_read_over_the_seam(frame: dict[str, Any]) -> None:
-    table = split_table(*index_that_moves_up_to_its_seam(), unit="deg", digit=1e-3, **frame)
-    assert [part.law for part in table.stretches] == [None, "cycloidal"] * 4
-    assert [part.stop for part in table.stretches] == pytest.approx(
-        [30.0, 90.0, 120.0, 180.0, 210.0, 270.0, 300.0, 360.0], abs=0.2
-    )
-    assert table.stretches[-1].high - table.stretches[0].low == pytest.approx(360.0, abs=2e-3)
-
-
 def test_rows_that_end_a_step_before_a_round_time_are_remarked() -> None:
     t = np.arange(600) / 1000.0
     y = 12.0 * QUINTIC(np.clip((t - 0.1) / 0.15, 0.0, 1.0)) - 12.0 * QUINTIC(np.clip((t - 0.35) / 0.15, 0.0, 1.0))
@@ -266,29 +191,6 @@ def test_rows_that_end_a_step_before_a_round_time_are_remarked() -> None:
     assert remark in str(split_table(t, np.round(y, 4), master="s", digit=1e-4))
     assert remark not in str(split_table(t, np.round(y, 4), master="s", digit=1e-4, turn=0.6))
     assert "turn of" not in str(split_table(np.append(t, 0.6), np.round(np.append(y, 0.0), 4), master="s", digit=1e-4))
-
-
-def test_exact_rests_do_not_hide_the_noise_of_moves() -> None:
-    x = np.arange(0.0, 360.01, 0.5)
-    law = catalogue["cycloidal"].law
-    exact = 20.0 * (law(np.clip((x - 30) / 90, 0, 1)) - law(np.clip((x - 200) / 90, 0, 1)))
-    moving = ((x > 30) & (x < 120)) | ((x > 200) & (x < 290))
-    noise = np.where(moving, np.random.default_rng(3).normal(0, 0.0022, len(x)), 0.0)
-    table = split_table(x, np.round(exact + noise, 5), digit=1e-5)
-    assert table.scatter == pytest.approx(0.0022, rel=0.2)
-    assert [part.law for part in table.moves] == ["cycloidal"] * 2
-
-
-@pytest.mark.sample(3)
-@pytest.mark.parametrize("step", [0.25, 0.5, 1.0])
-def test_finer_samples_divide_a_table_alike(step: float) -> None:
-    x = np.arange(0.0, 360.0 + 0.5 * step, step)
-    law = catalogue["modified sine"].law
-    exact = 30.0 * (law(np.clip((x - 20) / 100, 0, 1)) - law(np.clip((x - 180) / 80, 0, 1)))
-    table = split_table(x, np.round(exact + np.random.default_rng(7).normal(0, 0.005, len(x)), 3), digit=1e-3)
-    assert [part.kind for part in table.stretches] == ["dwell", "rise", "dwell", "return", "dwell"]
-    assert [part.stop for part in table.stretches] == pytest.approx([20, 120, 180, 260, 360], abs=1.5)
-    assert table.peaks[1].holds(30.0 * law.constants.C.value / 80.0**2)
 
 
 def test_a_peak_that_a_table_cannot_tell_is_said_to_be_unknown() -> None:
@@ -313,17 +215,6 @@ def test_a_move_about_a_constant_velocity_ends_where_this_goes_on() -> None:
     peak = 5.0 * 10.0 / np.sqrt(3.0) / 60.0**2
     assert table.peaks[1].holds(peak)
     assert table.peaks[1].high < 1.1 * peak
-
-
-@pytest.mark.sample(3)
-@pytest.mark.parametrize("noise", [0.0, 5e-3])
-@pytest.mark.parametrize("name", ["cycloidal", "simple harmonic", "4-5-6-7 polynomial", "modified trapezoid"])
-def test_standard_laws_between_dwells_have_no_corners(name: str, noise: float) -> None:
-    x, law = np.linspace(0.0, 360.0, 721), catalogue[name].law
-    lift = 30.0 * (law(np.clip((x - 30.0) / 100.0, 0.0, 1.0)) - law(np.clip((x - 180.0) / 90.0, 0.0, 1.0)))
-    table = split_table(x, lift + np.random.default_rng(7).normal(0.0, noise, x.size))
-    assert [part.law for part in table.moves] == [name, name]
-    assert table.corners == ()
 
 
 def test_corners_are_listed_with_their_places() -> None:
@@ -398,34 +289,6 @@ def test_a_ramp_of_constant_velocity_ends_where_a_law_from_rest_begins(
     assert all(0.0 < part.distance <= max(table.room, 4.5 * noise) for part in table.moves)
 
 
-@pytest.mark.parametrize("seed", [8, 10])
-def test_rows_in_the_slow_end_of_a_law_are_no_rest(seed: int) -> None:
-    x, law = np.linspace(0.0, 360.0, 1801), catalogue["4-5-6-7 polynomial"].law
-    lift = 25.0 * (law(np.clip((x - 30.0) / 80.0, 0.0, 1.0)) - law(np.clip((x - 160.0) / 80.0, 0.0, 1.0)))
-    table = split_table(x, np.round(lift + np.random.default_rng(seed).normal(0.0, 0.01, len(x)), 3), digit=1e-3)
-    assert [part.law for part in table.stretches] == [None, "4-5-6-7 polynomial"] * 2 + [None]
-    assert [part.stop for part in table.stretches] == pytest.approx([30.0, 110.0, 160.0, 240.0, 360.0], abs=0.1)
-
-
-@pytest.mark.sample(2)
-@pytest.mark.parametrize("noise", [0.003, 0.0])
-def test_a_valve_between_two_ramps_has_no_corner_at_its_crest(noise: float) -> None:
-    """Two polynomials that meet with their acceleration, each going on from a line that meets the rest at a corner."""
-    x = np.linspace(0.0, 360.0, 721)
-    opening = BPoly.from_derivatives([100.0, 170.0], [[0.3, 0.02, 0.0], [9.0, 0.0, -0.006]])
-    closing = BPoly.from_derivatives([170.0, 245.0], [[9.0, 0.0, -0.006], [0.25, -0.015, 0.0]])
-    y = np.interp(x, [85.0, 100.0, 245.0, 245.0 + 0.25 / 0.015], [0.0, 0.3, 0.25, 0.0])
-    inside = (x >= 100.0) & (x <= 245.0)
-    y[inside] = np.where(x < 170.0, opening(x), closing(x))[inside]
-    table = split_table(x, np.round(y + np.random.default_rng(5).normal(0.0, noise, len(x)), 4), digit=1e-4)
-    lines = [(part.kind, part.line is not None) for part in table.stretches]
-    assert lines == [
-        ("dwell", True), ("rise", True), ("rise", False), ("return", False), ("return", True), ("dwell", True)
-    ]  # fmt: skip
-    assert table.corners == pytest.approx([85.0, 245.0 + 0.25 / 0.015], abs=0.02 + 100.0 * noise)
-    assert table.stretches[2].stop == pytest.approx(170.0, abs=0.1)
-
-
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("speed", [0.02, 0.012])
 def test_ramps_that_begin_and_end_smoothly_are_found_with_their_blends(speed: float) -> None:
@@ -449,16 +312,6 @@ def test_ramps_that_begin_and_end_smoothly_are_found_with_their_blends(speed: fl
     better = table.bettered(0.05)
     assert np.abs(better.at(x) - exact).max() <= 0.056
     assert better.cycle(speed="200 rpm").peak(2) < 16.0
-
-
-@pytest.mark.parametrize("row", [65, 79, 93, 100])
-def test_a_row_that_is_missing_is_no_longer_step_of_all_others(row: int) -> None:
-    x = np.arange(361.0)
-    lift = 22.0 * (QUINTIC(np.clip((x - 40.0) / 90.0, 0, 1)) - QUINTIC(np.clip((x - 190.0) / 90.0, 0, 1)))
-    table = split_table(np.delete(x, row), np.delete(np.round(lift, 3), row), digit=1e-3)
-    assert [part.law for part in table.moves] == ["3-4-5 polynomial"] * 2
-    assert [part.stop for part in table.stretches] == pytest.approx([40.0, 130.0, 190.0, 280.0, 360.0], abs=0.01)
-    assert table.peaks[1].holds(22.0 * 10.0 / np.sqrt(3.0) / 90.0**2)
 
 
 def test_a_motion_without_rest_begins_where_it_turns_and_not_at_its_lowest_row() -> None:
@@ -544,20 +397,6 @@ def test_half_cycloids_meet_a_constant_velocity_without_a_corner() -> None:
     assert table.peaks[1].holds(2.0 * np.pi * 2.0 * 2.0 / (89.0 * 2.0 / 3.0) ** 2)
 
 
-@pytest.mark.sample(2)
-@pytest.mark.parametrize("turning", [-0.0448 / 6.0, -0.0075])
-def test_a_lift_that_leaves_its_ramp_at_rest_has_corners_there(turning: float) -> None:
-    """The rows of the corners were taken for points far off, or joints were put beside them."""
-    x = np.linspace(0.0, 360.0, 721)
-    lift = BPoly.from_derivatives([120.0, 180.0], [[0.3, 0.0, 0.0], [8.3, 0.0, turning]])
-    u = np.minimum(x, 360.0 - x)
-    y = np.where(u < 120.0, np.clip(0.012 * (u - 95.0), 0.0, 0.3), lift(u)).round(3)
-    table = split_table(x, [float(each) for each in y], digit=1e-3)
-    assert table.corners == pytest.approx((95.0, 120.0, 240.0, 265.0), abs=0.05)
-    assert table.outliers == ()
-    assert [part.stop for part in table.stretches] == pytest.approx([95.0, 120.0, 180.0, 240.0, 265.0, 360.0], abs=0.05)
-
-
 @pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("rows", "noise", "speed", "closing"),
@@ -585,122 +424,6 @@ def test_lifts_behind_ramps_with_blends_have_corners_where_they_leave_these_at_r
     assert table.corners == pytest.approx(corners, abs=0.2)
     assert np.isinf(table.peaks[1].high)
     assert np.abs(table.at(x) - exact).max() <= 4.0 * noise
-
-
-def test_corners_of_a_table_of_five_decimals_and_the_crest_between_them_are_placed_together() -> None:
-    """Half a step beside a corner is 800 times the noise here, and hides a joint at the crest."""
-    x = np.linspace(0.0, 360.0, 1441)
-    lift = BPoly.from_derivatives([78.0, 134.0], [[0.2695, 0.0, 0.0], [6.4539, 0.0, -0.0047]])
-    away = np.minimum(x, 268.0 - x)
-    ramp = 0.2695 - 0.01925 * (78.0 - away)
-    y = np.select([away <= 64.0, away < 78.0], [0.0, ramp], lift(np.minimum(away, 134.0)))
-    table = split_table(x, np.round(y, 5), digit=1e-5)
-    assert table.corners == pytest.approx((64.0, 78.0, 190.0, 204.0), abs=1e-3)
-    assert table.stretches[2].stop == pytest.approx(134.0, abs=1e-2)
-    assert table.outliers == ()
-    assert np.abs(table.at(x) - y).max() <= 1.5e-5
-
-
-@pytest.mark.sample(2)
-@pytest.mark.parametrize("seed", [1, 3])
-def test_a_line_that_a_lift_joins_smoothly_has_no_corner_where_it_might_end(seed: int) -> None:
-    """The rows of a line go on as this does into a smooth lift, whose likeliest corner is as far back as it may be."""
-    x = np.linspace(0.0, 360.0, 361)
-    lift = BPoly.from_derivatives([120.0, 178.0], [[0.24, 0.012, 0.0], [9.74, 0.0, -0.007]])
-    away = np.minimum(x, 356.0 - x)
-    y = np.select([away <= 100.0, away < 120.0], [0.0, 0.012 * (away - 100.0)], lift(np.minimum(away, 178.0)))
-    table = split_table(x, np.round(y + np.random.default_rng(seed).normal(0.0, 8e-3, 361), 3), digit=1e-3)
-    assert all(min(abs(at - 100.0), abs(at - 256.0)) < 1.5 for at in table.corners)
-
-
-def test_the_peak_of_a_long_polynomial_is_within_its_interval() -> None:
-    """Of a polynomial over 128 deg 24 places told a velocity that was 0.2 % less than its peak."""
-    x = np.linspace(0.0, 720.0, 1441)
-    lift = BPoly.from_derivatives([234.0, 362.0, 490.0], [[0.3, 0.005, 0.0], [10.7, 0.0, -0.0016], [0.3, -0.005, 0.0]])
-    away = np.minimum(x, 724.0 - x)
-    y = np.select([away <= 174.0, away < 234.0], [0.0, 0.005 * (away - 174.0)], lift(np.clip(x, 234.0, 490.0)))
-    table = split_table(x, np.round(y + np.random.default_rng(16).normal(0.0, 1e-3, 1441), 4), digit=1e-4, turn=720.0)
-    places = np.linspace(235.0, 489.0, 100_001)
-    assert table.peaks[0].holds(float(np.abs(lift(places, 1)).max()))
-    assert table.peaks[0].high < 1.01 * table.peaks[0].low
-    for part in table.stretches:
-        if not isinstance(part.law, str | None):
-            assert part.peaks[0].holds(part.law.peak(1).value * abs(part.stroke) / (part.stop - part.start))
-
-
-@pytest.mark.sample(4)
-@pytest.mark.parametrize("seed", range(4))
-def test_an_index_of_four_lobes_has_four_equal_moves_also_at_its_seam(seed: int) -> None:
-    """The advance is that of the first and the last row, whose noise bent the last move and made dwells return."""
-    x, law = np.linspace(0.0, 360.0, 721), catalogue["modified sine"].law
-    exact = sum(90.0 * np.asarray(law(np.clip((x - start) / 60.0, 0.0, 1.0))) for start in (30.0, 120.0, 210.0, 300.0))
-    y = np.round(exact + np.random.default_rng(seed).normal(0.0, 2e-3, 721), 3)
-    table = split_table(x, y, digit=1e-3)
-    assert [part.law for part in table.stretches] == [None, "modified sine"] * 4
-    assert [part.stop for part in table.stretches] == pytest.approx(
-        np.arange(1, 5).repeat(2) * 90.0 - [60.0, 0.0] * 4, abs=0.1
-    )
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("seed", range(4))
-def test_an_index_of_eight_stops_rests_eight_times(seed: int) -> None:
-    x, law = np.linspace(0.0, 360.0, 1441), catalogue["modified sine"].law
-    exact = sum(25.0 * np.asarray(law(np.clip((x - 45.0 * stop - 15.0) / 30.0, 0.0, 1.0))) for stop in range(8))
-    y = exact + np.random.default_rng(seed).normal(0.0, 5e-3, 1441)
-    table = split_table(x, np.round(y, 3), digit=1e-3)
-    assert [part.law for part in table.stretches] == [None, "modified sine"] * 8
-
-
-def test_a_crest_that_noise_makes_look_like_a_long_rest_is_one() -> None:
-    x, law = np.linspace(0.0, 360.0, 3601), catalogue["4-5-6-7 polynomial"].law
-    exact = 2.0 * (law(np.clip((x - 60.0) / 86.0, 0.0, 1.0)) - law(np.clip((x - 146.0) / 115.0, 0.0, 1.0)))
-    table = split_table(x, np.round(exact + np.random.default_rng(1).normal(0.0, 5e-3, 3601), 2), digit=0.01)
-    assert [part.law for part in table.stretches] == [None, *["4-5-6-7 polynomial"] * 2, None]
-    assert [part.stop for part in table.stretches] == pytest.approx([60.0, 146.0, 261.0, 360.0], abs=0.2)
-
-
-@pytest.mark.sample(2)
-@pytest.mark.parametrize("seed", [3, 5])
-def test_ramps_of_eleven_rows_between_corners_are_lines(seed: int) -> None:
-    """A table of 2 deg steps whose lift is at rest where its ramps end: jumps of 13 times the noise in a step."""
-    x = np.linspace(0.0, 358.0, 180)
-    lift = BPoly.from_derivatives([117.0, 169.0], [[0.44, 0.0, 0.0], [8.64, 0.0, -0.016]])
-    away = np.minimum(x, 338.0 - x)
-    exact = np.select([away <= 95.0, away < 117.0], [0.0, 0.02 * (away - 95.0)], lift(np.minimum(away, 169.0)))
-    table = split_table(x, np.round(exact + np.random.default_rng(seed).normal(0.0, 3e-3, 180), 3), digit=1e-3)
-    assert table.corners == pytest.approx((95.0, 117.0, 221.0, 243.0), abs=0.6)
-    assert np.isinf(table.peaks[1].high)
-
-
-@pytest.mark.sample(2)
-@pytest.mark.parametrize(("rows", "dwell"), [(73, 5.0), (72, 5.0), (91, 15.0), (121, 8.0)])
-def test_short_dwells_between_short_moves_of_coarse_tables_are_read(rows: int, dwell: float) -> None:
-    """Moves of some ten rows tell no noise from the motion: they had points far off, and began 20 deg too early."""
-    x, law = np.linspace(0.0, 360.0, rows), catalogue["cycloidal"].law
-    rise, back = (np.clip((x - start) / long, 0.0, 1.0) for start, long in ((30.0, 40.0), (70.0 + dwell, 35.0)))
-    table = split_table(x, np.round(3.2 * (law(rise) - law(back)), 3), digit=1e-3)
-    assert [part.law for part in table.stretches] == [None, "cycloidal", None, "cycloidal", None]
-    ends = [30.0, 70.0, 70.0 + dwell, 105.0 + dwell, 360.0]
-    assert [part.stop for part in table.stretches] == pytest.approx(ends, abs=0.1)
-    assert table.outliers == ()
-    assert table.peaks[1].holds(3.2 * 2.0 * np.pi / 35.0**2)
-
-
-@pytest.mark.sample(2)
-@pytest.mark.parametrize(("noise", "digit", "rows"), [(0.0, 1e-4, 361), (0.0, 1e-3, 721), (2e-3, 1e-3, 721)])
-def test_a_return_that_stops_for_an_instant_is_two_laws(noise: float, digit: float, rows: int) -> None:
-    """As one move without a joint it spoilt the rise before it, whose place was 4 deg off, with a corner."""
-    x = np.linspace(0.0, 360.0, rows)
-    rise, first, second = (
-        np.clip((x - a) / (b - a), 0.0, 1.0) for a, b in ((50.0, 130.0), (130.0, 220.0), (220.0, 330.0))
-    )
-    cycloidal = catalogue["cycloidal"].law
-    exact = 20.0 * cycloidal(rise) - 8.0 * catalogue["3-4-5 polynomial"].law(first) - 12.0 * cycloidal(second)
-    y = exact + np.random.default_rng(1).normal(0.0, 1.0, rows) * noise
-    table = split_table(x, np.round(y / digit) * digit, digit=digit)
-    assert [part.law for part in table.stretches] == [None, "cycloidal", "3-4-5 polynomial", "cycloidal", None]
-    assert [part.stop for part in table.stretches] == pytest.approx([50.0, 130.0, 220.0, 330.0, 360.0], abs=0.5)
 
 
 @pytest.mark.parametrize("begin", [0.0, 40.0])
@@ -732,20 +455,6 @@ def test_a_standard_law_over_the_seam_is_itself_on_both_sides() -> None:
         part.peaks[1].holds(law_of_move(part).constants.C.value * abs(part.stroke) / (part.stop - part.start) ** 2)
         for part in table.moves
     )
-
-
-@pytest.mark.parametrize(("row", "other"), [(0, -2), (-1, 300), (0, 300)])
-def test_a_point_far_off_at_the_seam_is_left_out(row: int, other: int) -> None:
-    """It was taken for an advance of the turn, and a move of one row."""
-    x, law = np.linspace(0.0, 360.0, 721), catalogue["cycloidal"].law
-    y = 25.0 * (law(np.clip((x - 40.0) / 90.0, 0.0, 1.0)) - law(np.clip((x - 170.0) / 110.0, 0.0, 1.0)))
-    y += np.random.default_rng(2).normal(0.0, 2e-3, 721)
-    y[row] += 0.08
-    y[other] -= 0.06
-    table = split_table(x, y.round(4), digit=1e-4)
-    assert [part.law for part in table.stretches] == [None, "cycloidal", None, "cycloidal", None]
-    assert set(table.outliers) == {row % 721, other % 721}
-    assert table.seam == 0.0
 
 
 @pytest.mark.sample(2)
