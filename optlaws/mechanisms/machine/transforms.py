@@ -18,7 +18,7 @@ from optlaws.mechanisms.machine.drives import Forcing, forcings
 from optlaws.numbers import Array, Complex, circular_frequency, not_negative, numbers, whole
 from optlaws.numerics import chebyshev
 from optlaws.synthesis.families.cone import stationary_places
-from optlaws.synthesis.functionals.curved_rows import columns_of
+from optlaws.synthesis.functionals.formula_rows import columns_of
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.tolerances import NEGLIGIBLE_TERM, TINY
 

@@ -2,43 +2,272 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
+from itertools import pairwise
 from math import inf, isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optlaws.echo import cut
-from optlaws.formulas.branches import smooth
+from optlaws.errors import InputError
+from optlaws.formulas.branches import knots, smooth
 from optlaws.formulas.convexity import Judge
-from optlaws.formulas.of_motion import MotionFormula
-from optlaws.formulas.tree import ORDERS, Negative
+from optlaws.formulas.of_motion import MotionFormula, divisor
+from optlaws.formulas.reading import FormulaError, read
+from optlaws.formulas.slopes import constant
+from optlaws.formulas.tree import ORDERS, SMOOTH_FUNCTIONS, Call, Exponentiation, Formula, Negative, Reciprocal
 from optlaws.kept import kept_property
-from optlaws.laws import MotionLaw
+from optlaws.laws import MotionLaw, PolynomialLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
+from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import Array, power_of_two
+from optlaws.numerics.chebyshev import gauss, value
+from optlaws.numerics.panels import candidates, cut_at_roots, series_between
+from optlaws.numerics.peaks import Peak, extremes
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily
 from optlaws.synthesis.families.piece_series import widened
-from optlaws.synthesis.functionals.affine_rows import columns, gauss, rows, sampled, sides
-from optlaws.synthesis.functionals.along_law import extremes_along, integral_along, value_along
-from optlaws.synthesis.functionals.curved_rows import (
+from optlaws.synthesis.functionals.formula_rows import (
     Boxes,
     Branch,
     branch_rows,
+    columns,
     envelopes,
+    gauss_places,
     integral_rows,
+    rows,
+    sampled,
+    sides,
     split,
     squared,
 )
 from optlaws.synthesis.functionals.sizes import known_values, size_bounds
-from optlaws.synthesis.functionals.undefined import check_ends, check_passed, pitfalls
 from optlaws.synthesis.problem.constants import Functional, ProblemView
 from optlaws.synthesis.problem.ranges import as_range
-from optlaws.tolerances import VALUE_ROUNDING
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+from optlaws.tolerances import BESIDE_BREAK, VALUE_ROUNDING
 
 if TYPE_CHECKING:
-    from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
     from optlaws.synthesis.spaces.space import LawSpace
+
+#: values of b or c, among them 0, 1/2 and 1
+_FROM_ZERO = frozenset(name for name, function in SMOOTH_FUNCTIONS.items() if function.from_zero)
+_PASSED = 2049
+#: motions at random, of which sizes, and how often one of the names is 0
+_MOTIONS, _STILL = 4096, 0.2
+_SIZES = {"a": 1.0, "b": 2.0, "c": 8.0, "j": 60.0}
+
+
+def check_ends(motion: MotionFormula, conditions: BoundaryConditions) -> None:
+    """Refuse a formula that has no value at the end conditions: at rest 1/b divides by 0."""
+    for k, end in ((0.0, conditions.start), (1.0, conditions.end)):
+        known = {name: end[nu] for name, nu in ORDERS.items() if nu < len(end)}
+        every = motion.formula.different if motion.start <= k <= motion.stop else ()
+        parts = [part for part in every if part.names() <= {*known, "k"} and part.names() & ORDERS.keys()]
+        wrong = [part for part in parts if not np.isfinite(MotionFormula(part).values({**known, "k": k}))]
+        if wrong:
+            values = " and ".join(f"{name} = {known[name]:g}" for name in sorted(wrong[0].names() & ORDERS.keys()))
+            text = str(motion.formula)
+            places = (same.place for same in read(text).different if same == wrong[-1])
+            raise FormulaError(
+                f"{motion.formula} has no finite value at k = {k:g}, where {values} in every law: ask for a part "
+                "of the interval, such as start=0.05, stop=0.95",
+                text,
+                next(places, 0),
+            )
+
+
+def check_passed(motion: MotionFormula, conditions: BoundaryConditions, *, smooth: bool) -> None:
+    """Refuse a formula without a value wherever every law comes by: 1/(b - 1), where laws rise by 1 from rest to rest.
+
+    They pass all a from 0 to 1, all b from 0 to their mean 1, and all c from -1 to 1 where c does not jump.
+    """
+    at_rest = conditions.start[:2] == (0, 0) and conditions.end[:2] == (1, 0)
+    passed = {"a": (0.0, 1.0), "b": (0.0, 1.0)} | ({"c": (-1.0, 1.0)} if smooth else {})
+    for part in motion.formula.different if at_rest and (motion.start, motion.stop) == (0.0, 1.0) else ():
+        (name,) = part.names() if len(part.names()) == 1 else ("",)
+        if name not in passed:
+            continue
+        values = np.linspace(*passed[name], _PASSED)
+        nowhere = _nowhere(part, {name: values})
+        if nowhere.any():
+            raise InputError(
+                f"{motion.formula} has no finite value where {name} = {values[nowhere][0]:.4g}, which every law "
+                "passes: ask for a part of the interval, such as start=0.05, stop=0.2"
+            )
+
+
+def pitfalls(motion: MotionFormula) -> Iterator[str]:
+    """Parts of a formula that some motions bring where they have no value or no slope, in words."""
+    for part in motion.formula.different:
+        if not part.names() & ORDERS.keys():
+            continue
+        if isinstance(part, Reciprocal):
+            low, high = _between(part.of, motion)
+            if low <= 0.0 <= high:
+                yield f"{part} has no value where {part.of} = 0"
+            continue
+        inner = None
+        if isinstance(part, Exponentiation) and not float(constant(part.exponent) or 0.5).is_integer():
+            inner = part.base
+        elif isinstance(part, Call) and part.function in _FROM_ZERO:
+            inner = part.arguments[0]
+        if inner is not None and _between(inner, motion)[0] <= 0.0:
+            yield f"{part} has no slope or no value where {inner} <= 0"
+
+
+def _between(formula: Formula, motion: MotionFormula) -> tuple[float, float]:
+    """The least and the greatest of a formula's values in some motions, most of them gentle, some without any."""
+    numbers = np.random.default_rng(0)
+    names = {name: size * numbers.normal(size=_MOTIONS) for name, size in _SIZES.items()}
+    for values in names.values():
+        values[numbers.random(_MOTIONS) < _STILL] = 0.0
+    k = motion.start + (motion.stop - motion.start) * numbers.random(_MOTIONS)
+    values = np.broadcast_to(MotionFormula(formula).values({**names, "k": k}), (_MOTIONS,))
+    known = values[np.isfinite(values)]
+    return (float(known.min()), float(known.max())) if len(known) else (np.inf, -np.inf)
+
+
+def _nowhere(part: Formula, names: Mapping[str, Array]) -> NDArray[np.bool_]:
+    """Ascending values at which a part has no value, or none before the next one."""
+    nowhere = ~np.isfinite(MotionFormula(part).values(names))
+    beneath = divisor(part)
+    if beneath is not None:
+        below = MotionFormula(beneath).values(names)
+        nowhere |= np.append(below[:-1] * below[1:] < 0.0, [False])
+    return nowhere
+
+
+_INTEGRAL_SETTLED = 1e-14  # of an integral: what twice as many places may change of the whole, where no cut is needed
+_PIECE_SETTLED = 1e-6  # of an integral: what twice as many places may change of the last pieces
+
+_LARGEST = 400
+#: how often a piece that is not smooth is cut in two, and how many places of Gauss's rule the last ones have
+_DEEPEST, _DENSE = 12, 32
+
+
+def extremes_along(motion: MotionFormula, law: MotionLaw) -> tuple[Peak, Peak]:
+    """The least and the greatest value of a formula in a law, each with its place; infinite where it has no bound."""
+    pieces = [_candidates(motion, law, ends) for ends in pairwise(_smooth_edges(motion, law))]
+    if not pieces:
+        k = np.array([motion.start])
+        return extremes(k, _values(motion, law, k))
+    k, values = (np.concatenate(several) for several in zip(*pieces, strict=True))
+    if not np.isfinite(values).all():
+        worst = float(k[~np.isfinite(values)][0])
+        return Peak(-np.inf, worst), Peak(np.inf, worst)
+    return extremes(k, values)
+
+
+def integral_along(motion: MotionFormula, law: MotionLaw, *, square: bool = False) -> float:
+    """The integral over the part of a formula in a law, or of its square; infinite where it seems to have none."""
+    integral = _Integral(motion, law, square=square)
+    return sum(integral.over(ends) for ends in integral.pieces)
+
+
+def value_along(motion: MotionFormula, law: MotionLaw) -> float:
+    """The formula's value in a law where its part begins."""
+    return float(_values(motion, law, np.array([motion.start]))[0])
+
+
+def _values(motion: MotionFormula, law: MotionLaw, k: Array) -> Array:
+    names = {name: law(k, ORDERS[name]) for name in motion.formula.names() if name in ORDERS}
+    return np.broadcast_to(motion.values({**names, "k": k}), k.shape).astype(np.float64)
+
+
+def _smooth_edges(motion: MotionFormula, law: MotionLaw) -> list[float]:
+    """The k between which the formula is smooth along the law, with kinks and knots of splines that the law passes."""
+    breaks = law.breaks if isinstance(law, PiecewiseLaw) else ()
+    inner = {k for k in (*breaks, *motion.breaks) if motion.start < k < motion.stop}
+    edges = sorted({motion.start, motion.stop, *inner})
+    plain, bent = knots(motion.formula, ORDERS)
+    if plain:
+        values = [partial(_values, MotionFormula(switch), law) for switch in plain]
+        cut = (cut_at_roots(lambda *_: of, edges) for of in values)  # noqa: B023 - called at once
+        edges = sorted({place for places in cut for place in places})
+    for switch in bent:
+        edges = cut_at_roots(partial(_inside, MotionFormula(switch), law), edges)
+    return edges
+
+
+def _inside(motion: MotionFormula, law: MotionLaw, low: float, high: float) -> Callable[[Array], Array]:
+    """The values on a piece, its ends taken just within it."""
+    return lambda k: _on(motion, law, (low, high), k)[1]
+
+
+def _on(motion: MotionFormula, law: MotionLaw, ends: tuple[float, float], k: Array) -> tuple[Array, Array]:
+    """Places of a piece, its ends just within it, and the values there."""
+    low, high = ends
+    # kinks that meet at an end may leave a piece shorter than that
+    beside = min(BESIDE_BREAK, 0.25 * (high - low))
+    inside = np.clip(k, low + beside * (low > 0.0), high - beside * (high < 1.0))
+    return inside, _values(motion, law, inside)
+
+
+def _count(motion: MotionFormula, law: MotionLaw, ends: tuple[float, float]) -> int | None:
+    """How many coefficients the formula has on a piece; None where it is no polynomial."""
+    longest = None
+    if isinstance(law, PolynomialLaw):
+        longest = len(law.acceleration)
+    elif isinstance(law, PiecewiseLaw):
+        segment = law.segments[int(np.searchsorted(law.breaks, sum(ends) / 2.0)) - 1]
+        longest = len(segment.acceleration) if isinstance(segment, PolynomialSegment) else None
+    if longest is None:
+        return None
+    degree = motion.degree({name: max(longest + 1 - nu, 0) for name, nu in ORDERS.items()})
+    return None if degree is None or degree > _LARGEST else degree + 1
+
+
+def _candidates(motion: MotionFormula, law: MotionLaw, ends: tuple[float, float]) -> tuple[Array, Array]:
+    """Candidates for extremes of the formula on a piece, and its values there."""
+    inner = candidates(_inside(motion, law, *ends), ends, _count(motion, law, ends))
+    return _on(motion, law, ends, np.concatenate([np.array(ends), inner]))
+
+
+class _Integral:
+    """The integral of a formula along a law, by Gauss's rule: exact where the formula is a polynomial."""
+
+    def __init__(self, motion: MotionFormula, law: MotionLaw, *, square: bool) -> None:
+        self.motion, self.law, self.square = motion, law, square
+        self.pieces = list(pairwise(_smooth_edges(motion, law)))
+
+    @kept_property
+    def size(self) -> float:
+        """The approximate size of the formula when no terms cancel."""
+        return sum(abs(self._by_rule(ends, _DENSE, sizes=True)) for ends in self.pieces)
+
+    def over(self, ends: tuple[float, float]) -> float:
+        """The integral over a piece."""
+        series = series_between(_inside(self.motion, self.law, *ends), ends, _count(self.motion, self.law, ends))
+        if series is None:
+            return self._in_parts(ends, 0)
+        x, weights = gauss(len(series) + 1)
+        values = np.asarray(value(series, x))
+        return float(weights @ (values**2 if self.square else values)) * (ends[1] - ends[0]) / 2.0
+
+    def _in_parts(self, ends: tuple[float, float], depth: int) -> float:
+        """Over a piece that is not smooth: a kink that a law comes near and turns is known to some digits alone."""
+        rough, fine = (self._by_rule(ends, count) for count in (_DENSE, 2 * _DENSE))
+        off = abs(fine - rough)
+        if off <= _INTEGRAL_SETTLED * self.size:
+            return fine
+        if depth == _DEEPEST:
+            return fine if off <= _PIECE_SETTLED * abs(fine) else float("inf")
+        middle = (ends[0] + ends[1]) / 2.0
+        return sum(self._in_parts(half, depth + 1) for half in ((ends[0], middle), (middle, ends[1])))
+
+    def _by_rule(self, ends: tuple[float, float], count: int, *, sizes: bool = False) -> float:
+        x, weights = gauss(count)
+        half = (ends[1] - ends[0]) / 2.0
+        values = _on(self.motion, self.law, ends, ends[0] + half * (x + 1.0))[1]
+        with np.errstate(invalid="ignore", over="ignore"):
+            shown = values**2 if self.square else np.abs(values) if sizes else values
+            return float(weights @ shown) * half
+
 
 _SHOWN = 200  # letters of a formula in an error
 
@@ -211,7 +440,7 @@ class FormulaRms(OfFormula):
         return (NormFamily(self.name, slack, bound, matrix=widened(matrix, len(slack))),)
 
     def _roots(self, space: LawSpace, motion: MotionFormula) -> Array:
-        u, weights = gauss(space, motion)
+        u, weights = gauss_places(space, motion)
         return np.sqrt(weights / self.length)[:, None] * columns(space, motion, u)
 
 
@@ -292,8 +521,8 @@ def boxes_of(problem: ProblemView) -> dict[str, tuple[float, float]]:
     {'b': (0.0, 1.8), 'c': (-6.0, 6.0), 'a': (0.0, 1.0)}
     """
     boxes = {}
-    for name, constant in (("b", "B"), ("c", "C"), ("j", "J")):
-        limits = as_range(getattr(problem, constant, None), constant)
+    for name, peak in (("b", "B"), ("c", "C"), ("j", "J")):
+        limits = as_range(getattr(problem, peak, None), peak)
         if limits is not None and isfinite(limits.high):
             boxes[name] = (-limits.high, limits.high)
     if problem.monotone:

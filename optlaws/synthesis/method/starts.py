@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from optlaws.numbers import Array
-from optlaws.synthesis.functionals.curved_rows import columns_of
+from optlaws.synthesis.functionals.formula_rows import columns_of
 from optlaws.synthesis.method.exchange import Method, solve
 from optlaws.synthesis.problem.constants import PowerConstant
 from optlaws.synthesis.program.writer import Model, model_of

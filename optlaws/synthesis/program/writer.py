@@ -317,8 +317,8 @@ class _Writer:
         return families if constant.normalised else tuple(family.scaled_down(scale) for family in families)
 
     def _formula_window(self, window: Window, motion: MotionFormula, halves: tuple[str, str]) -> None:
-        from optlaws.synthesis.functionals.affine_rows import columns as formula_columns
-        from optlaws.synthesis.functionals.curved_rows import branch_rows, split
+        from optlaws.synthesis.functionals.formula_rows import branch_rows, split
+        from optlaws.synthesis.functionals.formula_rows import columns as formula_columns
 
         parts, unit = motion.halves() if self.problem.symmetric else (motion,), self.scale(window)
         for part, name in zip(parts, halves, strict=False):

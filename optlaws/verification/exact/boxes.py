@@ -18,7 +18,7 @@ from optlaws.formulas.tree import ORDERS, Formula, Reciprocal
 from optlaws.kept import kept_property
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName
-from optlaws.synthesis.functionals.curved_rows import Branch
+from optlaws.synthesis.functionals.formula_rows import Branch
 from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaValue
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves

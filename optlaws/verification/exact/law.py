@@ -22,7 +22,7 @@ from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
 from optlaws.mechanisms.machine.output_constants import OutputPeak, OutputRms
 from optlaws.mechanisms.machine.residual import Residual
-from optlaws.synthesis.functionals.curved_rows import split, squared
+from optlaws.synthesis.functionals.formula_rows import split, squared
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.problem.constants import Functional, PeakConstant, PeakJerk, PowerConstant, RootMeanSquare

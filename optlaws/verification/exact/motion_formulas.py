@@ -20,8 +20,14 @@ from optlaws.formulas.tree import ORDERS, Call, Exponentiation, Formula, Number,
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
-from optlaws.synthesis.functionals.affine_rows import gauss_parts
-from optlaws.synthesis.functionals.curved_rows import Branch, integral_rows, rule_edges, rule_length, squared
+from optlaws.synthesis.functionals.formula_rows import (
+    Branch,
+    gauss_parts,
+    integral_rows,
+    rule_edges,
+    rule_length,
+    squared,
+)
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.verification.enclosing.ball_formulas import (
     BALLS,

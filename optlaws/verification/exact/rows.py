@@ -21,8 +21,8 @@ from optlaws.mechanisms.machine.output_constants import OutputConstant, OutputRm
 from optlaws.mechanisms.machine.residual import Residual
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName, VariableName
-from optlaws.synthesis.functionals.affine_rows import sides as formula_sides
-from optlaws.synthesis.functionals.curved_rows import Branch, split, squared
+from optlaws.synthesis.functionals.formula_rows import Branch, split, squared
+from optlaws.synthesis.functionals.formula_rows import sides as formula_sides
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, boxes_of
 from optlaws.synthesis.problem.combined import Combined, CombinedPeak, facing
 from optlaws.synthesis.problem.constants import B, Functional, PeakConstant, PowerConstant, RootMeanSquare
