@@ -26,7 +26,7 @@ from optlaws.tolerances import AGREEMENT, AT_END, VALUE_ROUNDING
 
 _SAME_STATE = 1e-5  # of a segment: states nearer to each other are one of those that others are interpolated between
 _CERTIFIED_GAP = 1e-10  # of an objective: laws of an array whose bound leaves no more are proven
-_ROUGH_STEP = 1e-7  # of a law: a step of more than this share is followed by another
+_ROUGH_STEP = 1e-7  # of a law: a step of more than this share is followed by others
 
 #: states between which others are interpolated
 _NEAR = 4
@@ -40,6 +40,10 @@ _WAVES = (64, 16, 4, 1)
 _PER_WAVE = 8
 #: places in a row beside a law that may have no structure of their own, as where one gives way to the next
 _PASSED = 3
+#: of a path: contacts of a law farther away seldom lead to another law as soon as none do
+_ALIKE = 0.01
+#: known segments whose structures laws beside them are tried with
+_BESIDE = 2
 #: laws at a time, and bytes of their matrices
 _CHUNKS = (128, 1024)
 _AT_HAND = 2**21
@@ -67,6 +71,10 @@ class StructureSegment:
     def end(self) -> float:
         """The greatest t at which a law is known."""
         return float(self.t[-1])
+
+    def away(self, t: Array) -> Array:
+        """How far t is from where laws are known; 0 between them."""
+        return np.asarray(np.maximum(np.maximum(self.begin - t, t - self.end), 0.0))
 
     def interpolated(self, t: Array) -> States:
         """States at other t by the polynomial through the nearest on both sides; places that may not move stay."""
@@ -115,14 +123,13 @@ def laws_along(path: Path, t: Array, segments: list[StructureSegment] | None = N
     """
     program, known = path.model.program, [] if segments is None else segments
     laws = SolvedBatch.none(len(t), program.size, program.size + _SPARE, len(program.right))
-    for segment in known:
-        _fill(laws, path, segment, t, np.flatnonzero((t >= segment.begin) & (t <= segment.end)))
+    _fill_near(laws, path, known, t)
     untried = np.ones(len(t), dtype=np.bool_)
     while (place := _next_place(laws.solved, untried)) is not None:
         untried[place] = False
         following = segment_at(path, float(t[place]), _nearest(known, float(t[place])))
         if following is not None and following.structure.count <= laws.u.shape[1]:
-            ends = [_last_place(path, following, t, place, end) for end in _open_ends(laws.solved, place)]
+            ends = [_last_place(laws, path, following, t, place, end) for end in _open_ends(laws.solved, place)]
             _fill(laws, path, following, t, np.arange(ends[0], ends[1] + 1))
             alike = (each for each in known if each.structure.signature == following.structure.signature)
             same = next(alike, None)
@@ -133,10 +140,18 @@ def laws_along(path: Path, t: Array, segments: list[StructureSegment] | None = N
     return _in_own_bounds(laws, path, t)
 
 
+def _fill_near(laws: SolvedBatch, path: Path, segments: list[StructureSegment], t: Array) -> None:
+    """Enter the laws that are on known segments, or beside them with the structure of one of the nearest two."""
+    away = np.array([segment.away(t) for segment in segments]).reshape(-1, len(t))
+    for nearest in np.argsort(away, axis=0, kind="stable")[:_BESIDE]:
+        for i in np.unique(nearest[~laws.solved]).tolist():
+            _fill(laws, path, segments[i], t, np.flatnonzero(~laws.solved & (nearest == i)))
+
+
 def _nearest(segments: list[StructureSegment], t: float) -> ActiveSet | None:
-    """The active set of the law that is known nearest to a place of the path; None where none is known."""
-    segment = min(segments, key=lambda known: float(np.abs(known.t - t).min()), default=None)
-    return None if segment is None else segment.nearest(t)
+    """The active set of the law that is known nearest to a place of the path; None where none is known near it."""
+    away = [float(np.abs(segment.t - t).min()) for segment in segments]
+    return segments[int(np.argmin(away))].nearest(t) if min(away, default=np.inf) < _ALIKE else None
 
 
 def segment_at(path: Path, t: float, near: ActiveSet | None) -> StructureSegment | None:
@@ -149,9 +164,13 @@ def segment_at(path: Path, t: float, near: ActiveSet | None) -> StructureSegment
         structure, order = structure_of(path.model, candidate)
         u = _on_ends(structure, candidate.u[order])
         state = (candidate.x, u, candidate.multipliers[order], candidate.equality_multipliers)
-        rows, sound = _solved(path, structure, np.array([t]), States(*(part[None] for part in state)))
-        if sound[0]:
-            return StructureSegment(structure, np.array([t]), rows)
+        alone, program = np.zeros(1, dtype=np.intp), path.model.program
+        law = SolvedBatch.none(1, program.size, structure.count, len(program.right))
+        _LawsOfStructure(law, path, structure, alone, path.numbers(np.array([t]))).converge(
+            States(*(part[None] for part in state))
+        )
+        if law.solved[0]:
+            return StructureSegment(structure, np.array([t]), _states(law, structure, alone).packed)
     return None
 
 
@@ -162,17 +181,10 @@ def _on_ends(structure: Structure, u: Array) -> Array:
     return np.where(~structure.free & (np.abs(u - nearest) < AT_END), nearest, u)
 
 
-def _solved(path: Path, structure: Structure, t: Array, guess: States) -> tuple[Array, NDArray[np.bool_]]:
-    """States at some t to which Newton's method leads, and which of them are proven optimal."""
-    numbers = path.numbers(t)
-    states, done = converged(structure, numbers, guess)
-    sound = np.zeros(len(t), dtype=np.bool_)
-    if done.any():
-        inside = clipped(structure, states.taken(done))
-        certification = certification_of(path, structure, numbers.taken(done), inside)
-        moved = np.abs(inside.u - states.u[done]).max(axis=1, initial=0.0)
-        sound[done] = certification.sound & (moved <= VALUE_ROUNDING)
-    return states.packed, sound
+def _states(laws: SolvedBatch, structure: Structure, places: Places) -> States:
+    """The states of laws of one structure."""
+    contacts = slice(structure.count)
+    return States(laws.x[places], laws.u[places, contacts], laws.multiplier[places, contacts], laws.equations[places])
 
 
 def _next_place(solved: NDArray[np.bool_], untried: NDArray[np.bool_]) -> int | None:
@@ -198,8 +210,8 @@ def _open_ends(solved: NDArray[np.bool_], place: int) -> tuple[int, int]:
     return int(before[-1]) + 1 if len(before) else 0, place + int(after[0]) - 1 if len(after) else len(solved) - 1
 
 
-def _last_place(path: Path, segment: StructureSegment, t: Array, place: int, end: int) -> int:
-    """The last place toward an end up to which laws of a segment are proven; some of their states join it."""
+def _last_place(laws: SolvedBatch, path: Path, segment: StructureSegment, t: Array, place: int, end: int) -> int:
+    """The last place toward an end up to which laws of a segment are proven; some are entered, and join it."""
     way, good, tried_beside = (1 if end >= place else -1), place, -1
     beyond = end + way
     while good != end:
@@ -211,10 +223,13 @@ def _last_place(path: Path, segment: StructureSegment, t: Array, place: int, end
             tried_beside, left = beyond, 1
             beyond += way
         places = good + way * np.unique(np.geomspace(1, left, _PROBES).round().astype(np.intp))
-        rows, sound = _solved(path, segment.structure, t[places], segment.interpolated(t[places]))
+        some = _LawsOfStructure(laws, path, segment.structure, places, path.numbers(t[places]))
+        some.converge(segment.interpolated(t[places]))
+        sound = laws.solved[places]
         count = len(places) if sound.all() else int(np.argmin(sound))
+        found = places[sound]
+        segment.joined(t[found], _states(laws, segment.structure, found).packed)
         if count:
-            segment.joined(t[places[:count]], rows[:count])
             good = int(places[count - 1])
         if count < len(places):
             beyond = int(places[count])
@@ -226,17 +241,17 @@ def _last_place(path: Path, segment: StructureSegment, t: Array, place: int, end
 def _fill(laws: SolvedBatch, path: Path, segment: StructureSegment, t: Array, places: Places) -> None:
     """Enter the laws of a segment at places between those at which some are known, in waves."""
     structure = segment.structure
-    if len(places) and structure.affine and not path.slope.cost.any() and segment.begin < segment.end:
-        _affine(laws, path, segment, places, t[places])
-        return
+    between = segment.away(t[places]) == 0.0
+    if structure.affine and not path.slope.cost.any() and segment.begin < segment.end and between.any():
+        _affine(laws, path, segment, places[between], t[places[between]])
+        places = places[~between]
     for stride in _WAVES:
         if stride > 1 and len(places) < _PER_WAVE * stride:
             continue
         some = places[::stride][~laws.solved[places[::stride]]]
         _enter(laws, path, segment, some, t[some])
-        known, contacts = some[laws.solved[some]], slice(structure.count)
-        states = States(laws.x[known], laws.u[known, contacts], laws.multiplier[known, contacts], laws.equations[known])
-        segment.joined(t[known], states.packed)
+        known = some[laws.solved[some]]
+        segment.joined(t[known], _states(laws, structure, known).packed)
 
 
 def _enter(target: SolvedBatch, path: Path, segment: StructureSegment, places: Places, t: Array) -> None:
@@ -268,17 +283,16 @@ class _LawsOfStructure:
     def solve(self, guess: States) -> None:
         """Enter the laws that one step of Newton's method from a guess leads to, or several, as far as proven."""
         states, sizes = step(self.structure, self.numbers, guess)
-        rough = np.flatnonzero(np.isfinite(sizes) & (sizes > _ROUGH_STEP))
-        if len(rough):
-            better, sizes[rough] = step(self.structure, self.numbers.taken(rough), states.taken(rough))
-            rows = states.packed
-            rows[rough] = better.packed
-            states = States.unpacked(rows, self.structure)
-        left = self.entered(states, np.flatnonzero(np.isfinite(sizes)), lambda certification: certification.sharp)
+        left = self.entered(states, np.flatnonzero(sizes <= _ROUGH_STEP), lambda certification: certification.sharp)
+        left = left[np.isfinite(sizes[left])]
         if len(left):
             rest = replace(self, places=self.places[left], numbers=self.numbers.taken(left))
-            states, done = converged(self.structure, rest.numbers, guess.taken(left))
-            rest.entered(states, np.flatnonzero(done), lambda certification: certification.sound)
+            rest.converge(states.taken(left))
+
+    def converge(self, guess: States) -> None:
+        """Enter the laws that Newton's method leads to from a guess, as far as proven."""
+        states, done = converged(self.structure, self.numbers, guess)
+        self.entered(states, np.flatnonzero(done), lambda certification: certification.sound)
 
     def entered(self, states: States, known: Places, proven: Callable[[Certification], NDArray[np.bool_]]) -> Places:
         """Store the known states that are proven optimal, and return the problems that are left."""
@@ -286,7 +300,8 @@ class _LawsOfStructure:
         if len(known):
             solved = clipped(self.structure, states.taken(known))
             certification = certification_of(self.path, self.structure, self.numbers.taken(known), solved)
-            sound = proven(certification)
+            moved = np.abs(solved.u - states.u[known]).max(axis=1, initial=0.0)
+            sound = proven(certification) & (moved <= VALUE_ROUNDING)
             values = (certification.objective[sound], certification.bound[sound], certification.excess[sound])
             _put(self.optima, self.structure, self.places[known[sound]], solved.taken(sound), values)
             left[known[sound]] = False
