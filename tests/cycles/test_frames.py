@@ -188,4 +188,6 @@ def test_a_turn_in_rounded_radians_is_one_turn() -> None:
     y = 20.0 * (law(np.clip((k - 30.0) / 100.0, 0.0, 1.0)) - law(np.clip((k - 200.0) / 90.0, 0.0, 1.0)))
     cycle = split_table(np.round(x, 4), np.round(y, 4), master="rad").cycle(speed="200 rpm")
     assert cycle.duration == pytest.approx(0.3, rel=1e-12)
+    without_end = split_table(np.round(x[:-1], 4), np.round(y[:-1], 4), master="rad")
+    assert without_end.cycle(speed="200 rpm").duration == pytest.approx(0.3, rel=1e-12)
     assert np.abs(1e3 * cycle.at_angle(np.arange(0.0, 360.0)) - y[:-1]).max() < 3e-3

@@ -11,8 +11,7 @@ from optlaws.errors import InputError
 from optlaws.motion.quantities import either, quantity
 from optlaws.numbers import Array, NumberOrQuantity, Quantity, whole
 
-_TURN = 360.0  # deg of the master of a cycle in a turn
-_TURNS = {"deg": _TURN, "rad": 2.0 * np.pi, "turn": 1.0, "rev": 1.0}
+_TURNS = {"deg": 360.0, "rad": 2.0 * np.pi, "turn": 1.0, "rev": 1.0}
 _NEAR = 1e-3  # of the positions: by how much more the last one may be off the first one than steps beside it are
 _BESIDE = 4  # steps beside each end, by some of which noise is seen
 _ROWS_OVER_SEAM = 7  # on each side, whose slopes are alike where a motion goes on
@@ -22,6 +21,7 @@ _MOST_LOBES = 100
 _LONG_STEP = 5  # times the median step: a longer one between equal positions is a rest
 _STEP_OF_TURN = 0.25  # a position that goes on over the end of its turn makes no longer step
 _WHOLE = 1e-6  # of a turn: by how much the last row may be off its end, as digits leave it
+_STEP_OFF = 0.02  # of a step, as digits of radians leave it, by how much the last row may be off a step before the end
 
 
 def in_order(
@@ -89,7 +89,7 @@ def unwound(heights: Array, unit: str) -> Array:
 
 
 def closed(
-    places: Array, heights: Array, turn: float | None, advance: float | None, *, angle: bool = False
+    places: Array, heights: Array, turn: float | None, advance: float | None, *, supposed: float | None = None
 ) -> tuple[Array, Array]:
     """Rows from the beginning of a turn to its end; the row of the end is that of the beginning where it is missing.
 
@@ -99,8 +99,8 @@ def closed(
         Arrays of shape (n,), of increasing places.
     turn, advance
         The length of the turn, and what the position advances by in it; what the rows have unless given.
-    angle
-        Whether places are degrees, of which 360 are a turn: rows that end a step before it are those of a turn.
+    supposed
+        The turn of an angle where none is given: rows that end a step before it are those of a turn.
 
     Raises
     ------
@@ -114,8 +114,8 @@ def closed(
     (151, 1500.0)
     """
     length, step = float(np.ptp(places)), float(np.diff(places)[-1])
-    whole = turn or (_TURN if angle else 0.0)
-    if abs(length + step - whole) <= _WHOLE * whole:
+    whole = turn or supposed or 0.0
+    if abs(length + step - whole) <= max(_WHOLE * whole, _STEP_OFF * step):
         advances = advance is None and abs(heights[-1] - heights[0]) > beside_ends(heights)
         advance = _advance_over_seam(places, heights, whole) if advances else advance
         turn = turn if advances and advance is None else whole

@@ -81,7 +81,7 @@ class OldTableReport:
     def tables(self) -> tuple[ReportTable, ...]:
         """The stretches with their laws; the peaks of moves with better laws beside those of the old ones.
 
-        A change is that from the fitted old law; the least and the most are what the points leave open.
+        A change is that from the fitted old law; the points of the table leave it open between its ends.
         """
         old, new = self.table, self._rows_of_gains
         ends = [f"from, {old.master}", f"to, {old.master}"]
@@ -90,7 +90,7 @@ class OldTableReport:
             for part in old.stretches
         ]
         stretches = ReportTable(["what", *ends, f"by, {old.unit}", "law"], rows)
-        change = ["change at least, %", "at most, %", "change, %"]
+        change = ["change, %", "lower end, %", "upper end, %"]
         gains = ["what", *ends, "peak", "old", "new", "lower bound", "status", "unit", *change, f"off by, {old.unit}"]
         return (stretches, ReportTable(gains, new)) if new else (stretches,)
 
@@ -110,7 +110,7 @@ class OldTableReport:
             for nu in (1, 2, 3):
                 proof = [bounded(each.lower_bound), each.status] if nu == 2 else [None, ""]
                 peaks = [each.old[nu - 1], each.new[nu - 1], *proof, self.table.unit_of(nu)]
-                change = [bounded(round(100.0 * share, _DIGITS)) for share in (*each.shares(nu), each.share(nu))]
+                change = [bounded(round(100.0 * share, _DIGITS)) for share in (each.share(nu), *each.shares(nu))]
                 first = [each.kind, each.start, each.stop] if nu == 1 else ["", None, None]
                 rows.append([*first, QUANTITIES[nu], *peaks, *change, each.deviation if nu == 1 else None])
         return rows

@@ -258,7 +258,8 @@ def split_table(
     whole = turn is not None or either(f"1 {master}", ("angle", "time", "length"), "master")[0] == "length"
     of_one = of_lobe(lobes, turn, advance, master)
     ordered = in_order(places, heights, whole_turn(turn, master))
-    places, heights = closed(ordered[0], unwound(ordered[1], unit), *of_one, angle=master == "deg" and lobes == 1)
+    supposed = whole_turn(None, master) if lobes == 1 else None
+    places, heights = closed(ordered[0], unwound(ordered[1], unit), *of_one, supposed=supposed)
     places, heights = begun(places, heights, begin, of_one[1])
     stroke = float(np.ptp(heights))
     if stroke == 0.0:
