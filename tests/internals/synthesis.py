@@ -37,12 +37,9 @@ from optlaws.synthesis.limits.phase_plane import TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_plane_program import optimum
 from optlaws.synthesis.limits.rounding import not_above, root_rounded_down, rounded_down, rounded_up
 from optlaws.synthesis.method import exchange, starts
-from optlaws.synthesis.method.discretised import ipopt, linear, quadratic_steps
-from optlaws.synthesis.method.discretised.answer import Answer
-from optlaws.synthesis.method.discretised.conic import optimum_on_points
-from optlaws.synthesis.method.discretised.expressions import KINDS, RowShape
-from optlaws.synthesis.method.discretised.grids import first_points
-from optlaws.synthesis.method.discretised.linear import vertex_on_points
+from optlaws.synthesis.method.discretised import ipopt, quadratic_steps
+from optlaws.synthesis.method.discretised.ipopt import KINDS, RowShape
+from optlaws.synthesis.method.discretised.on_points import Answer, first_points, optimum_on_points, vertex_on_points
 from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.exchange import Outcome, solve

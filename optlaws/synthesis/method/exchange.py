@@ -22,9 +22,14 @@ from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.method.contacts import polished
-from optlaws.synthesis.method.discretised.answer import Answer
-from optlaws.synthesis.method.discretised.conic import of_cones, optimum_on_points
-from optlaws.synthesis.method.discretised.grids import first_points, with_extrema
+from optlaws.synthesis.method.discretised.on_points import (
+    Answer,
+    first_points,
+    of_cones,
+    optimum_on_points,
+    vertex_on_points,
+    with_extrema,
+)
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.identified import as_answered, identified
 from optlaws.synthesis.method.units import units_of
@@ -228,7 +233,7 @@ class _Exchange:
             answer = answer_on_points(program, points, self.start)
             yield answer
             if answer.status == NEARLY_SOLVED and not program.curved:
-                yield _vertex(program, points) or answer
+                yield vertex_on_points(program, points) or answer
         else:
             if self.count == 1:
                 yield from self._straight()
@@ -273,17 +278,10 @@ def answer_on_points(
         if answer.success or answer.status == INFEASIBLE:
             return answer
         if not program.curved:
-            return _vertex(program, points) or answer
+            return vertex_on_points(program, points) or answer
     from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
 
     return stepwise_on_points(program, points, np.zeros(program.size) if start is None else start, settled)
-
-
-def _vertex(program: Program, points: list[Points]) -> Answer | None:
-    # scipy's solvers take as long to import as a law needs
-    from optlaws.synthesis.method.discretised.linear import vertex_on_points
-
-    return vertex_on_points(program, points)
 
 
 def _excess(program: Program, x: Array) -> float:

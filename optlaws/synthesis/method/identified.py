@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from optlaws.numbers import Array
 from optlaws.synthesis.families.active_set import ActiveSet, Contact
 from optlaws.synthesis.families.family import ConstraintFamily, Points, Program
-from optlaws.synthesis.method.discretised.answer import Answer
+from optlaws.synthesis.method.discretised.on_points import Answer
 from optlaws.tolerances import BARRIER, SAME_PLACE
 
 _SAME_HEIGHT = 1e-9  # what an extremum's residual may be below that of a point on its hill: rounding of a series

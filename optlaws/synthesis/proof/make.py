@@ -15,7 +15,7 @@ from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import LinearFamily, NormFamily
 from optlaws.synthesis.families.names import RowName, VariableName, velocity_at_peak
 from optlaws.synthesis.functionals.sizes import nonnegative_weights
-from optlaws.synthesis.method.discretised.grids import first_points
+from optlaws.synthesis.method.discretised.on_points import first_points
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.newton import newton
 from optlaws.synthesis.problem.constants import D

@@ -38,7 +38,7 @@ from optlaws import (
     via,
 )
 from optlaws.synthesis import basis
-from tests.internals.synthesis import Answer, Points, Program, exchange, linear, make, search
+from tests.internals.synthesis import Answer, Points, Program, exchange, make, search
 
 GOOD: dict[str, Any] = {"B": 1.859, "order": 4}
 
@@ -208,7 +208,7 @@ def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) ->
     asked = problem(B=1.7001)
     # where Clarabel fails the simplex method solves a linear program
     assert synthesize(asked).status == "optimal"
-    monkeypatch.setattr(linear, "vertex_on_points", lambda *_: None)
+    monkeypatch.setattr(exchange, "vertex_on_points", lambda *_: None)
     with pytest.raises(SolverFailure, match="no law was found") as caught:
         synthesize(asked)
     assert caught.value.problem == asked

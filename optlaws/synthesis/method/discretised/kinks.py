@@ -21,7 +21,7 @@ from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
-from optlaws.synthesis.method.discretised.answer import Answer
+from optlaws.synthesis.method.discretised.on_points import Answer
 
 _CELL, _PER_VARIABLE = 6, 10
 _OPTIMAL = 0

@@ -16,7 +16,7 @@ from optlaws.numbers import Array
 from optlaws.numerics.cones import INFEASIBLE, SparseColumns, conic_optimum, usable
 from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
-from optlaws.synthesis.method.discretised.answer import QUADRATIC, Answer
+from optlaws.synthesis.method.discretised.on_points import QUADRATIC, Answer
 from optlaws.tolerances import EMPTY_ROW, STEP_SETTLED
 
 _STEP_PAYS = 1e-4  # of what a quadratic step promises: the share that it must hold
