@@ -168,12 +168,6 @@ def test_wrong_families_are_refused(family: Any) -> None:
             call()
 
 
-def test_families_are_values() -> None:
-    assert {SavinFamily.of("III"): "third"}[SavinFamily(2)] == "third"
-    with pytest.raises(AttributeError):
-        SavinFamily(2).u = 3  # type: ignore[misc]
-
-
 @pytest.mark.parametrize("u", range(4))
 @pytest.mark.parametrize("name", ["C", "D"])
 def test_a_peak_at_an_end_of_the_range_gives_that_end(u: int, name: str) -> None:

@@ -25,10 +25,8 @@ from optlaws import (
     limit,
     pareto_front,
     proven_front,
-    smoothstep,
     synthesize,
 )
-from tests.internals.laws import law_between
 from tests.internals.synthesis import HEADINGS, evaluate, named, undominated, value_of
 from tests.sampling import sampled
 
@@ -378,11 +376,3 @@ def test_certificates_of_other_problems_are_refused() -> None:
         replace(front, certificates=front.certificates[::-1])
     with pytest.raises(InputError, match="ascending"):
         replace(front, values=front.values[::-1])
-
-
-def test_laws_between_are_weighted_means() -> None:
-    mean = law_between(smoothstep(2), smoothstep(5), 0.25)
-    k = np.linspace(0.0, 1.0, 11)
-    assert mean.c(k) == pytest.approx(0.75 * smoothstep(2).c(k) + 0.25 * smoothstep(5).c(k), abs=1e-13)
-    with pytest.raises(InputError, match="polynomials with the same breaks"):
-        law_between(smoothstep(2), synthesize(SPLINES).law, 0.5)

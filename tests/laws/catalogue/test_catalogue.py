@@ -87,15 +87,6 @@ def test_half_segments_are_those_of_kloomok_and_muffley() -> None:
 
 
 @every_entry
-def test_constants_are_those_of_samples(name: str) -> None:
-    law, one = catalogue[name].law, catalogue[name].constants
-    k = np.linspace(0.0, 1.0, 20001)
-    for peak, values in ((one.B, law.b(k)), (one.C, law.c(k)), (one.D, law.d(k))):
-        assert np.abs(values).max() <= peak.value * (1 + 1e-13)
-        assert np.abs(values).max() >= peak.value * (1 - 2e-4)
-
-
-@every_entry
 def test_continuity_is_where_derivatives_stop_meeting(name: str) -> None:
     entry, law = catalogue[name], catalogue[name].law
     nu = entry.continuity

@@ -1,6 +1,5 @@
 """Piecewise laws: joints, jumps and infinite peaks, exact values of each kind of segment."""
 
-import itertools
 from math import inf, log, nan, pi, sqrt
 from typing import Any
 
@@ -8,7 +7,6 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
 from optlaws import InputError, Peak, PiecewiseLaw, smoothstep
 from tests.internals.laws import (
@@ -22,7 +20,6 @@ from tests.internals.laws import (
 )
 from tests.laws.examples import cut, cut_power, cut_sine
 
-Array = NDArray[np.float64]
 K = np.linspace(0.0, 1.0, 501)
 # constant acceleration 4, then deceleration -4
 TWO_STEPS = PiecewiseLaw([0, 0.5, 1], [PolynomialSegment((4.0,)), PolynomialSegment((-4.0,), 2.0)])
@@ -221,21 +218,6 @@ def test_wrong_segments_are_refused(segments: Any) -> None:
 def test_wrong_contents_are_refused(make: Any, message: str) -> None:
     with pytest.raises(InputError, match=message):
         make()
-
-
-def test_every_combination_of_segments_joins() -> None:
-    kinds = [
-        PolynomialSegment((1.0,), 0.5),
-        SineSegment(1.0, 4.0, 0.1, 0.5),
-        PowerSegment(0.5, 1.0),
-        PowerSegment(0.5, 0.0),
-    ]
-    for pair in itertools.product(kinds, repeat=2):
-        law = PiecewiseLaw([0, 0.4, 1], pair)
-        assert law.a(0.4) == pytest.approx(law.a(0.4 - 1e-12), abs=1e-11)
-        for nu in range(4):
-            finite = law(K, nu)
-            assert law.peak(nu).value >= np.abs(finite).max() * (1 - 1e-14)
 
 
 def test_jumps_of_rounding_size_are_none_in_uniform_motion() -> None:
