@@ -85,6 +85,7 @@ TEXTS = (
     "integral(c^2 + (1 + k)*b^2)",
     "integral(exp(c/40), start=0.3)",
     "integral(a*c, start=0.2, stop=0.8)",
+    "rms(exp(c/5))",
     "value(c^2 + b*j, at=0.3)",
 )
 AXIS = Machine.from_masses(

@@ -90,6 +90,9 @@ MAKERS: dict[str, Callable[[LawSpace, Array], ConstraintFamily]] = {
     ),
     "curved formula": lambda laws, room: of_text("peak((1 + a^2)*c + a*b^2 + k*b, side=high, start=0.05)", laws, room),
     "integrated kinks": lambda laws, room: of_text("integral(abs(c - b) + a*b)", laws, room),
+    "integrated greatest": lambda laws, room: of_text("integral(max((c + 0.5*b)*b, 0))", laws, room),
+    "integrated squared greatest": lambda laws, room: of_text("integral(max(c, 0.5*b, 0)^2)", laws, room),
+    "rooted kinks": lambda laws, room: of_text("rms(max(c, 0))", laws, room),
     "integrated formula": lambda laws, room: of_text("integral(c^2 + a*b)", laws, room),
     "rooted integral": lambda laws, room: of_text("rms(2 + c^2 + b^2)", laws, room),
     "velocity, loader": lambda laws, room: B_loader.families(laws, room, BOUND)[0],
@@ -291,19 +294,23 @@ def test_other_units_change_nothing(family: ConstraintFamily) -> None:
     assert greatest == pytest.approx(family.extremes(x)[2].max(), rel=1e-10, abs=1e-11)
 
 
-def test_values_are_those_of_the_law() -> None:
-    for where in ("polynomials", "splines", "pieces"):
-        laws = SPACES[where]
-        x = point(EXAMPLES[f"B of {where}"])[: laws.terms]
-        law, u = laws.law(x), np.linspace(-0.99, 0.99, 25)
-        k, nothing = (1.0 - u) / 2.0, np.zeros(laws.terms)
-        expected = {
-            laws.derivative(2, "C", nothing): law.c(k),
-            laws.combination(1, (1.0, 0.1), "cam", nothing): law.b(k) + 0.1 * law.c(k),
-            laws.power("D", nothing): law.d(k),
-            laws.from_rest("b / sqrt(2k)", nothing): law.b(k) / np.sqrt(2 * k),
-            laws.from_rest("b / sqrt(2 - 2k)", nothing, backward=True): law.b(1 - k) / np.sqrt(2 * k),
-            laws.norm(2, "rms_c", nothing): np.full(25, law.rms(2)),
-        }
-        for family, values in expected.items():
-            assert family.value(x, u) == pytest.approx(values, rel=1e-9, abs=1e-9)
+@pytest.mark.parametrize("where", SPACES)
+def test_values_are_those_of_the_law(where: str) -> None:
+    laws = SPACES[where]
+    x = point(EXAMPLES[f"B of {where}"])[: laws.terms]
+    law, nothing = laws.law(x), np.zeros(laws.terms)
+    expected: list[tuple[ConstraintFamily, Callable[[Array], object]]] = [
+        (laws.derivative(2, "C", nothing), law.c),
+        (laws.combination(1, (1.0, 0.1), "cam", nothing), lambda k: law.b(k) + 0.1 * law.c(k)),
+        (laws.power("D", nothing), law.d),
+        (laws.from_rest("b / sqrt(2k)", nothing), lambda k: law.b(k) / np.sqrt(2 * k)),
+        (laws.norm(2, "rms_c", nothing), lambda _: np.full(25, law.rms(2))),
+        (laws.backward(nothing, 0.0), law.b),
+        (LawSpace.forward(laws, nothing), law.b),
+    ]
+    if not laws.symmetric:
+        to_rest = laws.from_rest("b / sqrt(2 - 2k)", nothing, backward=True)
+        expected.append((to_rest, lambda k: law.b(k) / np.sqrt(2 - 2 * k)))
+    for family, of_law in expected:
+        u = np.linspace(*family.domain, 27)[1:-1]
+        assert family.value(x, u) == pytest.approx(of_law(family.k(u)), rel=1e-9, abs=1e-9), family.name

@@ -4,7 +4,9 @@ import os
 import subprocess
 import sys
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from optlaws import Chebyshev, Problem
 from tests.documents import ROOT
@@ -68,3 +70,29 @@ def test_a_grid_of_forty_shapes_writes_each_program_once() -> None:
         for order, degree in shapes:
             writer.model_of(Problem(order=order, B=B, basis=Chebyshev(degree)))
     assert writer._model.cache_info().misses - before <= len(shapes)
+
+
+def test_of_what_a_space_makes_the_last_32_are_kept() -> None:
+    space = writer.model_of(Problem(B=1.8, order=3, basis=Chebyshev(5))).space
+    made: list[int] = []
+
+    def make(key: int) -> NDArray[np.float64]:
+        def anew() -> NDArray[np.float64]:
+            made.append(key)
+            return np.full(1, float(key))
+
+        return space.cached(("mine", key), anew)
+
+    space._cache.clear()
+    for key in range(32):
+        assert make(key) == float(key)
+    assert [make(key)[0] for key in range(32)] == list(range(32))
+    assert made == list(range(32))
+    assert make(32) == 32.0
+    assert len(space._cache) == 32
+    # the first one had to go, and no other
+    assert [make(key)[0] for key in range(1, 33)] == list(range(1, 33))
+    assert made == list(range(33))
+    make(0)
+    assert made == [*range(33), 0]
+    assert make(0) is make(0)

@@ -96,23 +96,6 @@ def family_of(text: str, *, symmetric: bool) -> KinkedIntegralFamily:
     return family
 
 
-@pytest.mark.sample(3)
-@pytest.mark.parametrize("symmetric", [True, False])
-@pytest.mark.parametrize("text", KINDS)
-def test_derivatives_are_differences(text: str, symmetric: bool) -> None:  # noqa: FBT001 - a parameter
-    family = family_of(text, symmetric=symmetric)
-    x = np.random.default_rng(2).normal(size=len(family.slack)) * 0.2
-    one, step = np.ones(1), 1e-5
-    gradient = family.jet(x, one, one).gradient[0] + family.slack
-    bend = family.hessian(x, one, one)
-    assert bend is not None
-    for i, way in enumerate(step * np.eye(len(x))):
-        ahead, back = (family.jet(x + sign * way, one, one) for sign in (1.0, -1.0))
-        rise = family.value(x + way, one)[0] - family.value(x - way, one)[0]
-        assert rise / (2.0 * step) == pytest.approx(gradient[i], rel=1e-6, abs=1e-7)
-        assert (ahead.gradient - back.gradient)[0] / (2.0 * step) == pytest.approx(bend[i], rel=1e-4, abs=1e-5)
-
-
 @pytest.mark.parametrize("text", [KINDS[0], *KINDS[2:]])
 def test_tangents_are_nowhere_above(text: str) -> None:
     family, numbers = family_of(text, symmetric=True), np.random.default_rng(3)

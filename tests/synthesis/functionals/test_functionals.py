@@ -34,7 +34,6 @@ from optlaws import (
 )
 from tests.internals.formulas import MotionFormula, of_text
 from tests.internals.synthesis import space_of
-from tests.sampling import sampled
 
 SHOWN = re.compile(r"for both sides write (maximum\(.*\)), which is never less")
 
@@ -81,34 +80,13 @@ def test_what_is_written_for_a_drive_is_its_peak_torque(load: str, efficiency: f
 # --- sizes ---
 
 
-CONSTANTS = [
-    integral("c^2 + (1 + k)*b^2"),
-    rms("norm(b, c)"),
-    integral("exp(c/5)"),
-    integral("c^4"),
-    rms("exp(c/5)"),
-    integral("abs(c - b)"),
-    peak("c + 3*b", side="low"),
-    peak("norm(b, c)"),
-]
-
-
-@pytest.mark.parametrize("constant", sampled(CONSTANTS, each=2), ids=repr)
-def test_no_law_is_larger_than_the_bound_says(constant: object) -> None:
-    rest = BoundaryConditions.rest(3)
-    [(order, factor, offset)] = constant.sizes(space_of(Chebyshev(7), rest, symmetric=False))  # type: ignore[attr-defined]
+def test_no_law_is_larger_than_an_integral_with_kinks_says() -> None:
+    rest, constant = BoundaryConditions.rest(3), integral("abs(c - b)")
+    [(order, factor, offset)] = constant.sizes(space_of(Chebyshev(7), rest, symmetric=False))
     rng, k = np.random.default_rng(1), np.linspace(0.0, 1.0, 2001)
     for size in (1.0, 10.0, 100.0) * 5:
         law = law_from_z(rest, size * rng.normal(size=2))
-        mean = float(np.mean(np.abs(law(k, order))))
-        assert mean <= factor * constant.value(law) + offset  # type: ignore[attr-defined]
-
-
-@pytest.mark.parametrize("constant", CONSTANTS[:5:2], ids=repr)
-def test_an_integral_alone_is_optimal(constant: object) -> None:
-    solution = synthesize(Problem(order=3, basis=Chebyshev(7), minimise=constant))  # type: ignore[arg-type]
-    assert solution.status.value == "optimal"
-    assert solution.gap < 1e-10
+        assert float(np.mean(np.abs(law(k, order)))) <= factor * constant.value(law) + offset
 
 
 # --- splines over the displacement ---
