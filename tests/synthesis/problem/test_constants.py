@@ -89,6 +89,8 @@ CURVED: list[dict[str, Any]] = [
     {"minimise": "max(rms_c/3.5, C/5)", "B": 1.641},
     {"minimise": "rms_c/3.5 + rms_j/25", "B": between(1.5, 1.6), "inflexion": 0.5},
     {"minimise": "0.5*rms_c/3.5 + 0.5*J/32", "order": 3, "B": 1.8, "monotone": True},
+    {"B": 1.8, "bounds": {"rms_c": at_most(3.82)}},
+    {"B": 1.8, "bounds": {"rms_j": at_most(28.5)}, "minimise": "rms_c"},
     {"bounds": {"residual(frequency=(18.0, 22.0), damping=0.05)": at_most(0.05)}, "order": 3, "symmetric": False},
 ]
 #: bounds of one side, zones, inflexions, laws in pieces and cams, of order 3: of each kind one each time, and one more

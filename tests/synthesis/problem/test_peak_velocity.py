@@ -21,7 +21,6 @@ from optlaws import (
     at_least,
     at_most,
     between,
-    sweep,
     synthesize,
 )
 from optlaws.verification import verify
@@ -266,12 +265,6 @@ def test_a_ratio_and_an_inflexion_together() -> None:
     solution = synthesize(problem(minimise="max(C_plus, C_minus/1.5)"))
     assert C_minus.value(solution.law) / C_plus.value(solution.law) == pytest.approx(1.5, rel=1e-9)
     assert solution.law.c(0.4) == pytest.approx(0.0, abs=1e-9)
-
-
-def test_neighbours_are_continued() -> None:
-    first = [problem(B=B) for B in (1.7, 1.72, 1.74)]
-    for solution, asked in zip(sweep(first), first, strict=True):
-        assert solution.objective == pytest.approx(synthesize(asked).objective, rel=1e-10)
 
 
 @pytest.mark.parametrize(

@@ -59,14 +59,6 @@ def test_a_range_that_makes_no_sense_is_refused(wrong: tuple[Any, Any]) -> None:
 # --- a bound that does not bind changes nothing; one that does is met ---
 
 
-@pytest.mark.parametrize("minimise", ["C", "J", "rms_c", "C/8 + J/64", "max(C/4, J/32)"])
-def test_wide_bounds_cost_nothing(minimise: str) -> None:
-    plain = synthesize(problem(minimise=minimise))
-    wide = synthesize(problem(minimise=minimise, B=between(1.05, 4.0), C=at_most(100.0), J=at_most(5000.0)))
-    assert wide.objective == pytest.approx(plain.objective, rel=1e-10)
-    judge(wide)
-
-
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("minimise", ["C", "J", "rms_c", "snap"])
 def test_a_range_of_b_is_no_worse_than_any_b_in_it(minimise: str) -> None:
@@ -141,6 +133,9 @@ def test_a_bound_on_d_is_kept() -> None:
         ({"minimise": "C", "B": 1.7, "D": 7.0}, "D", 7.0),
         ({"minimise": "J", "B": 1.7, "D": 6.0, "order": 3}, "D", 6.0),
         ({"minimise": "J", "C": at_least(7.0)}, "C", 7.0),
+        ({"minimise": "C", "C": 7.0}, "C", 7.0),
+        ({"minimise": "J", "B": 1.7, "J": at_least(100.0)}, "J", 100.0),
+        ({"minimise": "D", "B": 1.6, "D": at_least(6.0)}, "D", 6.0),
         ({"minimise": "C", "J": between(100.0, 120.0)}, "J", 100.0),
     ],
 )
@@ -162,24 +157,6 @@ def test_a_constant_that_is_given_has_its_value(
         assert found == pytest.approx(min(max(own, value), asked.range(name).high), rel=1e-9)  # type: ignore[union-attr]
     assert solution.objective >= free.lower_bound * (1 - 1e-11)
     assert solution.lower_bound <= solution.objective * (1 + 1e-12)
-
-
-@pytest.mark.sample(6)
-@pytest.mark.parametrize("minimise", ["C", "J", "rms_c"])
-@pytest.mark.parametrize("low", [1.9, 2.2])
-def test_b_at_least_binds_where_the_free_b_is_less(minimise: str, low: float) -> None:
-    worths = []
-    for symmetric in (True, False):
-        solution = synthesize(problem(minimise=minimise, order=3, B=at_least(low), symmetric=symmetric))
-        judge(solution)
-        free = synthesize(problem(minimise=minimise, order=3, symmetric=symmetric))
-        B = Judged(solution.law).constant("B")
-        own = Judged(free.law).constant("B")
-        if own < low * (1 - 1e-6):
-            assert pytest.approx(low, rel=1e-9) == B
-        assert low * (1 - 1e-9) <= B
-        worths.append(solution.objective)
-    assert worths[0] == pytest.approx(worths[1], rel=1e-9)
 
 
 def test_a_value_that_no_law_can_have_is_said_so() -> None:
