@@ -8,21 +8,8 @@ import pytest
 
 from optlaws import Chebyshev, Powers, Problem, at_most, between, synthesize
 from tests.synthesis.judge import Judged, judge
-from tests.synthesis.reference import least
 
 # --- unsymmetric laws ---
-
-
-@pytest.mark.sample(4)
-@pytest.mark.parametrize("minimise", ["C_plus", "C_minus"])
-@pytest.mark.parametrize("B", [None, 1.7, 2.1, 2.5], ids=str)
-def test_one_sided_peaks_of_unsymmetric_laws(B: float | None, minimise: str) -> None:
-    problem = Problem(B=B, order=3, minimise=minimise, symmetric=False)
-    solution = synthesize(problem)
-    judge(solution)
-    assert solution.objective == pytest.approx(least(problem), rel=1e-8)
-    mirror = synthesize(replace(problem, minimise="C_minus" if minimise == "C_plus" else "C_plus"))
-    assert mirror.objective == pytest.approx(solution.objective, rel=1e-10)
 
 
 # --- mixtures ---
@@ -88,16 +75,6 @@ def test_a_start_leads_to_the_cold_answer(given: dict[str, Any], change: dict[st
     assert warm.lower_bound == pytest.approx(cold.lower_bound, rel=1e-10 if first.convex else 1e-6)
     assert warm.status == cold.status
     assert warm.problem == warm.certificate.problem == second
-
-
-@pytest.mark.parametrize("B", [None, 1.5, at_most(1.8)], ids=repr)
-@pytest.mark.parametrize("symmetric", [True, False], ids=["symmetric", "unsymmetric"])
-def test_an_optimum_whose_jerk_is_constant_is_proven(B: Any, symmetric: bool) -> None:  # noqa: FBT001
-    # b = 6k(1-k): every k is a contact
-    solution = synthesize(Problem(B=B, order=2, minimise="J", symmetric=symmetric))
-    judge(solution)
-    assert solution.status.value == "optimal"
-    assert solution.objective == pytest.approx(12.0, rel=1e-9)
 
 
 def test_a_start_of_another_kind_is_left_aside() -> None:

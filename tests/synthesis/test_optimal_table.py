@@ -1,7 +1,6 @@
 """All rows of the printed table: what the printed Z(k) gives, and the optimum of the same shape."""
 
 from fractions import Fraction
-from itertools import pairwise
 
 import pytest
 
@@ -46,11 +45,6 @@ def mirrored(k: float) -> float:
     return min(k, 1.0 - k)
 
 
-def test_the_table_has_thirteen_rows() -> None:
-    assert [float(row["B"]) for row in PRINTED] == [float(row["B"]) for row in EXACT]
-    assert len(PRINTED) == 13
-
-
 @every_row
 def test_the_printed_z_gives_the_exact_constants(printed: dict[str, str], exact: dict[str, str]) -> None:
     constants = law_of(printed).constants
@@ -86,11 +80,3 @@ def test_no_printed_law_beats_the_proven_bound_of_its_own_shape(printed: dict[st
     degree = 5 if printed["base"] == "II" else len(printed["z"].split()) - 1
     # printed coefficients are rounded, and so is the B that they give
     assert float(exact["C"]) >= optimum(printed, degree).lower_bound - 1e-3
-
-
-@pytest.mark.sample(3)
-@every_row
-def test_richer_z_is_no_worse(printed: dict[str, str], exact: dict[str, str]) -> None:
-    found = [optimum(printed, degree).objective for degree in (3, 5, 9, 15, 21)]
-    assert all(later <= earlier * (1 + 1e-12) for earlier, later in pairwise(found))
-    assert found[2] < float(exact["C"])

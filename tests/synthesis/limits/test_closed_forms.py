@@ -79,27 +79,6 @@ def test_piecewise_constant_accelerations_approach_the_limit_from_above(
     assert found[-1] - limit <= max(0.1 * (found[0] - limit), 1e-9 * limit)
 
 
-@pytest.mark.parametrize(
-    ("B", "monotone", "order", "cells"),
-    [
-        (1.6, False, 2, 8),
-        (1.25, False, 3, 10),
-        (2.0, False, 2, 2),
-        (2.5, True, 2, 10),
-        (2.5, True, 1, 10),
-        (1.4, False, 1, 2),
-    ],
-)
-def test_where_the_switches_fall_on_the_grid_the_limit_is_met(
-    B: float,
-    monotone: bool,  # noqa: FBT001
-    order: int,
-    cells: int,
-) -> None:
-    found = least_acceleration(B, cells, monotone=monotone, order=order)
-    assert found == pytest.approx(acceleration_limit(B, monotone=monotone, order=order), rel=1e-9)
-
-
 @pytest.mark.sample(5)
 @pytest.mark.parametrize("B", [1.2, 1.641, 2.0, 2.3, 3.0])
 @pytest.mark.parametrize("monotone", [False, True])

@@ -15,7 +15,6 @@ from optlaws import (
     drive_torque,
     integral,
     rms,
-    smoothstep,
     synthesize,
 )
 from tests.synthesis.numpy_laws import grid, laws_of
@@ -181,17 +180,6 @@ def test_where_a_formula_vanishes_along_the_law_its_corner_is_proven() -> None:
     solution = synthesize(Problem(order=1, minimise="C + 0.25*integral(2*abs(a + b) + 4*abs(c))"))
     assert solution.status is Status.OPTIMAL
     assert solution.objective == pytest.approx(0.75, rel=1e-9)
-
-
-@pytest.mark.long
-def test_a_slider_crank_needs_no_more_energy_than_its_speed_asks_for() -> None:
-    inertia = "0.02 + 0.05*(sin(pi*a) + 0.25*sin(pi*a)*cos(pi*a)/sqrt(1 - (0.25*sin(pi*a))^2))^2"
-    energy = integral(f"max(({drive_torque(inertia=inertia)})*b, 0)")
-    unit = np.pi / 0.3**2
-    assert energy.value(smoothstep(3)) * unit == pytest.approx(4.416, abs=5e-4)
-    solution = synthesize(Problem(order=3, C=at_most(12), basis=Chebyshev(9), symmetric=False, minimise=energy))
-    assert solution.objective * unit == pytest.approx(1.196, abs=5e-4)
-    assert solution.law.peak(2).value <= 12.0 * (1.0 + 1e-9)
 
 
 @pytest.mark.sample(2)
