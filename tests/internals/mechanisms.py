@@ -11,4 +11,4 @@ from optlaws.mechanisms.machine.residual import BandResidual, ModeResidual
 from optlaws.mechanisms.machine.response import MassMotion, Oscillator
 from optlaws.mechanisms.machine.spectrum import above
 from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.mechanisms.machine.transforms import legendre_from_chebyshev, moments
+from optlaws.mechanisms.machine.transforms import moments

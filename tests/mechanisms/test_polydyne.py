@@ -10,24 +10,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import (
-    Chebyshev,
     Follower,
     InputError,
     MotionLaw,
     PiecewiseLaw,
     PolynomialLaw,
-    Problem,
     catalogue,
     mass_law,
     polydyne,
     savin,
     smoothstep,
-    synthesize,
 )
-from tests.internals.laws import PolynomialSegment, PowerSegment, SineSegment
+from tests.internals.laws import PolynomialSegment
 from tests.internals.mechanisms import cam_powers
 from tests.laws.examples import cut
-from tests.mechanisms.response_cases import Case, integrated
 from tests.sampling import examples
 from tests.tables import rows
 
@@ -47,11 +43,6 @@ def spline() -> PiecewiseLaw:
         c = np.polynomial.Chebyshev.interpolate(lambda k: a(k, 2) / scale, 3, [low, high])
         segments.append(PolynomialSegment(tuple(c.coef.tolist()), float(a(low, 1) / scale)))
     return PiecewiseLaw(knots.tolist(), segments)
-
-
-def sine_on_a_parabola() -> PiecewiseLaw:
-    """One sine segment with powers, smooth at the ends as far as it goes."""
-    return PiecewiseLaw([0, 1], [SineSegment(2.0, 3.0, 0.4, 0.1, (0.3, -0.2, 0.5))])
 
 
 LAWS: dict[str, MotionLaw] = {
@@ -79,45 +70,6 @@ def test_the_mass_does_what_it_was_meant_to(name: str, nu: float, damping: float
     assert [cam.a(0.0), cam.a(1.0), cam.b(0.0), cam.b(1.0)] == pytest.approx([0, 1, 0, 0], abs=1e-9)
 
 
-@pytest.mark.parametrize("name", LAWS)
-def test_the_cam_is_the_sum_of_derivatives(name: str) -> None:
-    law, nu, damping = LAWS[name], 13.0, 0.2
-    cam = polydyne(law, nu, damping)
-    inside = K[1:-1] + 1e-4
-    for order in range(3):
-        sum_of_three = law(inside, order) + 2 * damping / nu * law(inside, order + 1) + law(inside, order + 2) / nu**2
-        size = 1 + np.abs(sum_of_three).max()
-        assert cam(inside, order) == pytest.approx(sum_of_three, abs=1e-10 * size)
-
-
-def test_an_integrator_agrees() -> None:
-    law = LAWS["triple harmonic"]
-    cam = polydyne(law, 15.0, 0.1)
-    k = [0.2, 0.5, 0.8, 1.0, 1.2]
-    case = Case(cam, lambda t: float(cam.a(t)), 15.0, 0.1, (0.0, 0.0))
-    expected = [*law.a(k[:4]).tolist(), 1.0]
-    assert integrated(case, k)[:, 0] == pytest.approx(expected, abs=1e-10)
-
-
-def test_a_sine_with_powers_keeps_its_form() -> None:
-    (segment,) = sine_on_a_parabola().segments
-    once, twice = 0.3, 0.07
-    made = segment.plus_derivatives(0.8, once, twice)
-    assert isinstance(made, SineSegment)
-    u = np.linspace(0.0, 1.0, 7)
-    for order in (1, 2, 3):
-        expected = sum(f * segment.derivative(u, 0.8, order + i) for i, f in enumerate((1.0, once, twice)))
-        assert made.derivative(u, 0.8, order) == pytest.approx(expected, abs=1e-12)
-
-
-def test_a_kind_of_segment_that_is_unknown_becomes_a_polynomial() -> None:
-    segment = PowerSegment(1.0, 1.5)
-    made = segment.plus_derivatives(0.5, 0.3, 0.07)
-    u = np.linspace(0.0, 1.0, 7)
-    expected = sum(f * segment.derivative(u, 0.5, 2 + i) for i, f in enumerate((1.0, 0.3, 0.07)))
-    assert made.derivative(u, 0.5, 2) == pytest.approx(expected, abs=1e-11)
-
-
 @examples(40)
 @given(st.sampled_from(["III", "IV"]), st.floats(0.0, 1.0), st.floats(2.0, 200.0), st.floats(0.0, 1.5))
 def test_back_and_forth(family: str, part: float, nu: float, damping: float) -> None:
@@ -136,15 +88,6 @@ def test_the_mass_of_any_polynomial_cam_swings_about_its_mass_law() -> None:
     assert found.a(K) == pytest.approx(steady.a(K) + free.a(K), abs=1e-14)
     forced = Follower(30.0, 0.1).response(cam, initial=(steady.a(0.0), steady.b(0.0)))
     assert forced.a(K) == pytest.approx(steady.a(K), abs=1e-14)
-
-
-def test_a_cam_of_an_optimal_law() -> None:
-    law = synthesize(Problem(B=1.859, order=4, basis=Chebyshev(9))).law
-    cam = polydyne(law, 20.0, 0.05)
-    follower = Follower(20.0, 0.05).response(cam)
-    assert follower.dynamic_factor(law) == pytest.approx(1.0, abs=1e-9)
-    assert isinstance(cam, PolynomialLaw)
-    assert cam.constants.B.value < 2.2
 
 
 @pytest.mark.parametrize(

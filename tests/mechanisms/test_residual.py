@@ -53,16 +53,6 @@ def test_the_greatest_residuals_of_any_interval_are_those_of_responses(
         assert peak.value == pytest.approx(own, rel=1e-9, abs=1e-12)
 
 
-@pytest.mark.parametrize("dampings", [(0.0, 0.0), (0.05, 0.05), (0.05, 0.0), (0.02, 0.08)])
-def test_of_a_mass_law_it_is_the_residual_of_its_cam(dampings: tuple[float, float]) -> None:
-    damping, made = dampings
-    law = savin("IV", 11.0)
-    vibration = residual_vibration(frequency=(18, 22), damping=damping, design=20, design_damping=made).value(law)
-    assert vibration == pytest.approx(
-        residual_vibration(frequency=(18, 22), damping=damping).value(polydyne(law, 20, made)), rel=1e-9
-    )
-
-
 CASES = [
     Problem(order=3, basis=Chebyshev(11), bounds={residual_vibration(frequency=(18, 22)): at_most(0.1)}),
     Problem(order=3, basis=Chebyshev(11), bounds={residual_vibration(frequency=(18, 22)): at_most(0.01)}, B=2.1),
@@ -128,23 +118,6 @@ def test_the_least_residual_that_an_acceleration_allows() -> None:
     assert back.objective == pytest.approx(6.0, rel=1e-6)
 
 
-def test_less_residual_costs_acceleration_and_a_higher_degree_helps() -> None:
-    def least(degree: int, most: float) -> float:
-        bounds = {residual_vibration(frequency=(18, 22)): at_most(most)}
-        return synthesize(Problem(order=3, basis=Chebyshev(degree), bounds=bounds)).objective
-
-    by_most = [least(9, most) for most in (1.0, 0.3, 0.1, 0.03)]
-    assert by_most == sorted(by_most)
-    by_degree = [least(degree, 0.1) for degree in (7, 9, 11, 13, 15)]
-    assert by_degree == sorted(by_degree, reverse=True)
-
-
-def test_a_single_frequency_is_an_interval_too() -> None:
-    solution = synthesize(Problem(order=3, bounds={"residual(frequency=20)": at_most(0.01)}))
-    assert solution.status.value == "optimal"
-    assert residuals(solution.law.b, np.array([20.0]), 0.0)[0] <= 0.01 * (1 + 1e-8)
-
-
 def test_a_residual_out_of_reach_is_refused_with_proof() -> None:
     for asked in (
         Problem(
@@ -180,16 +153,6 @@ SPECTRUM = ((16.0, 0.2), (18.0, 1.0), (19.0, 0.4), (22.0, 0.9), (24.0, 0.0), (26
 def weighed(law: object, nu: np.ndarray, damping: float) -> np.ndarray:
     weights = np.interp(nu, *np.array(SPECTRUM).T)
     return np.asarray(weights * nu**2 * np.abs(residual_phasor(law, nu, damping)))  # type: ignore[arg-type]
-
-
-@pytest.mark.parametrize("damping", [0.0, 0.03])
-def test_the_greatest_is_that_of_many_frequencies(damping: float) -> None:
-    law, nu = smoothstep(4), np.linspace(16.0, 27.0, 110_001)
-    peak = residual_vibration(spectrum=SPECTRUM, damping=damping).peak(law)
-    many = weighed(law, nu, damping)
-    assert peak.value == pytest.approx(many.max(), rel=1e-7)
-    assert peak.value >= many.max() * (1.0 - 1e-12)
-    assert peak.k == pytest.approx(nu[many.argmax()], abs=1e-3)
 
 
 @pytest.mark.long

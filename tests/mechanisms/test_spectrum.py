@@ -22,7 +22,7 @@ from optlaws import (
     savin,
     smoothstep,
 )
-from tests.internals.mechanisms import legendre_from_chebyshev, moments
+from tests.internals.mechanisms import moments
 from tests.laws.examples import EXAMPLES, cut_power, random_law
 from tests.mechanisms.response_cases import random_case
 from tests.sampling import examples, sampled
@@ -44,13 +44,6 @@ def test_moments_of_legendre_polynomials(sigma: complex) -> None:
         values = np.exp(complex(sigma) * (1 - x)) * weights * 0.25 * (high - low)
         total += values @ np.polynomial.legendre.legvander(x, 40)
     assert moment_values == pytest.approx(total, abs=3e-14)
-
-
-def test_chebyshev_to_legendre() -> None:
-    series = np.random.default_rng(0).normal(size=61)
-    x = np.linspace(-1, 1, 33)
-    legendre = np.polynomial.legendre.legval(x, legendre_from_chebyshev(61) @ series)
-    assert legendre == pytest.approx(np.polynomial.chebyshev.chebval(x, series), abs=1e-11)
 
 
 @pytest.mark.sample(4)
@@ -87,13 +80,6 @@ def test_the_functional_is_the_phasor(seed: int, nu: float, damping: float) -> N
     assert found == pytest.approx(nu**2 * residual_phasor(law, nu, damping), abs=1e-12 * nu**2)
 
 
-def test_the_phasor_is_linear() -> None:
-    first, second = random_law(1, 8, b0=0.3), random_law(2, 8)
-    sum_of_both = PolynomialLaw(2 * np.array(first.acceleration) - 3 * np.array(second.acceleration), b0=2 * first.b0)
-    phasors = [residual_phasor(one, NUS, 0.1) for one in (first, second, sum_of_both)]
-    assert 2 * phasors[0] - 3 * phasors[1] == pytest.approx(phasors[2], abs=1e-14)
-
-
 @pytest.mark.parametrize(("family", "alpha"), [("III", 7.2), ("IV", 11.0)])
 @pytest.mark.parametrize(("design", "damping"), [(0.0, 0.0), (0.05, 0.05), (0.0, 0.05), (0.05, 0.0)])
 def test_a_polydyne_cam_divides_the_residual(family: str, alpha: float, design: float, damping: float) -> None:
@@ -114,13 +100,6 @@ def test_peaks_are_those_of_single_responses(seed: int, damping: float, nus: lis
     peak_acceleration = response_spectrum(law, nus, damping).peak_acceleration
     expected = [Follower(nu, damping).response(law).peak(2).value for nu in nus]
     assert peak_acceleration == pytest.approx(expected, rel=3e-5)
-
-
-@pytest.mark.parametrize("law", [savin("III", 7.2), catalogue["modified sine"].law, random_law(2, 30, 0.9)])
-def test_peaks_of_smooth_laws(law: PolynomialLaw) -> None:
-    peak_acceleration = response_spectrum(law, NUS, 0.02).peak_acceleration
-    expected = [Follower(nu, 0.02).response(law).peak(2).value for nu in NUS]
-    assert peak_acceleration == pytest.approx(expected, rel=2e-6)
 
 
 def test_constant_power_has_a_spectrum() -> None:

@@ -18,11 +18,8 @@ from optlaws import (
     Mechanism,
     Problem,
     Solution,
-    at_most,
     four_bar,
-    integral,
     mechanism_of_motion,
-    peak,
     rms,
     slider_crank,
     smoothstep,
@@ -310,19 +307,6 @@ def test_rms_torque_of_the_quintic(crank_inertia: float, expected: float) -> Non
 def test_least_rms_torque(moved: StrokeTorque, degree: int, symmetric: bool, expected: float) -> None:  # noqa: FBT001
     problem = Problem(order=3, basis=Chebyshev(degree), minimise=rms(moved.torque), symmetric=symmetric)
     assert synthesize(problem).objective * moved.unit == pytest.approx(expected, abs=1e-6)
-
-
-def test_least_peak_torque(moved: StrokeTorque) -> None:
-    problem = Problem(order=3, basis=Chebyshev(9), minimise=peak(moved.torque), C=at_most(12))
-    assert synthesize(problem).objective * moved.unit == pytest.approx(5.1057, abs=1e-4)
-
-
-@pytest.mark.long
-def test_least_energy_without_regeneration(moved: StrokeTorque) -> None:
-    energy = integral(f"max(({moved.torque})*b, 0)")
-    assert energy.value(smoothstep(3)) * moved.unit == pytest.approx(4.416, abs=5e-4)
-    problem = Problem(order=3, basis=Chebyshev(9), minimise=energy, C=at_most(12))
-    assert synthesize(problem).objective * moved.unit <= 1.196
 
 
 def test_inertia_that_vanishes_at_the_dead_centres() -> None:
