@@ -239,19 +239,21 @@ def _add_move(page: Page, title: str, each: SoughtMove) -> None:
 
 
 def _in_words(front: TimeFront) -> str:
-    """The saving from a tenth more time, in words.
+    """The saving from a tenth more time, or from less where that leaves nothing, in words.
 
     Examples
     --------
     >>> from optlaws import Cycle, Rise
     >>> limits = {"velocity": "1 m/s", "jerk": "300 m/s^3"}
     >>> move = Cycle([Rise("100 mm")], period="0.3 s", advance="100 mm", limits=limits)
-    >>> calm = move.front("residual acceleration", follower={"frequency": "12 Hz"}, points=3, longest="0.4 s")
+    >>> calm = move.front("residual acceleration", follower={"frequency": "12 Hz"}, points=9, longest="0.4 s")
     >>> _in_words(calm)
-    'The least residual acceleration falls to next to nothing in a time 33 % longer than the least. Every point is ...'
+    'The least residual acceleration falls to next to nothing in a time 7 % longer than the least. Every point is ...'
     """
     first, last = front[0], front[-1]
-    later = next((point for point in front if point.duration >= 1.1 * first.duration), last)
+    nothing = [point for point in front if chop(point.value, first.value, _LITTLE) == 0.0]
+    tenth = [point for point in front if point.duration >= 1.1 * first.duration]
+    later = min([*nothing[:1], *tenth[:1], last], key=lambda point: point.duration)
     more = later.duration / first.duration - 1.0
     proven = "Every point is proven" if front.status is Status.OPTIMAL else "The bounds hold for all laws of the space"
     longer = f"in a time {_PERCENT * more:.0f} % longer than the least"
@@ -269,7 +271,8 @@ def _points(front: TimeFront) -> list[list[Cell]]:
         sure = solution.status is Status.OPTIMAL
         bound = point.lower_bound if sure else float(f"{point.lower_bound:.3g}")
         value = chop(point.value, front[0].value, _NOTHING)
-        rows.append([point.duration, value, bound, gap(solution) if sure else None, solution.status.value])
+        apart = gap(solution) if sure and value else None
+        rows.append([point.duration, value, bound, apart, solution.status.value])
     return rows
 
 

@@ -76,6 +76,8 @@ PINT: UnitRegistry[Any] = UnitRegistry()
         ("0.4 N m", "torque", 0.4),
         ("0.4 N*m", "torque", 0.4),
         ("3 N/mm", "stiffness", 3000.0),
+        ("30 lbf/in", "stiffness", 30.0 * 0.45359237 * 9.80665 / 0.0254),
+        ("30 lb in^2", "moment of inertia", 30.0 * 0.45359237 * 0.0254**2),
         ("0.01 N m s/rad", "rotary viscous friction", 0.01),
     ],
 )
@@ -87,10 +89,10 @@ PREFIXES = ["", "n", "u", "µ", "m", "c", "k", "M", "G", "milli", "kilo"]
 #: names of units, prefixed ones before others, and the names of pint where it has others
 UNITS = {
     "L": (["m", "meter", "metre"], ["in", "inches", "ft", "foot", "feet", "thou"]),
-    "M": (["g", "gram"], []),
+    "M": (["g", "gram"], ["lb", "lbs", "oz", "pound"]),
     "T": (["s", "sec", "second"], ["min", "minute", "h", "hour"]),
     "A": (["rad", "radian"], ["deg", "°", "degrees", "turn", "rev", "U"]),
-    "F": (["N", "newton"], []),
+    "F": (["N", "newton"], ["lbf"]),
 }
 OF_PINT = {"rev": "turn", "U": "turn", "µ": "u"}
 SHAPES = {
