@@ -227,8 +227,8 @@ def _last_place(laws: SolvedBatch, path: Path, segment: StructureSegment, t: Arr
         some.converge(segment.interpolated(t[places]))
         sound = laws.solved[places]
         count = len(places) if sound.all() else int(np.argmin(sound))
-        found = places[sound]
-        segment.joined(t[found], _states(laws, segment.structure, found).packed)
+        proven = places[sound]
+        segment.joined(t[proven], _states(laws, segment.structure, proven).packed)
         if count:
             good = int(places[count - 1])
         if count < len(places):
