@@ -41,9 +41,8 @@ from optlaws.synthesis.method.discretised import ipopt, quadratic_steps
 from optlaws.synthesis.method.discretised.ipopt import KINDS, RowShape
 from optlaws.synthesis.method.discretised.on_points import Answer, first_points, optimum_on_points, vertex_on_points
 from optlaws.synthesis.method.discretised.quadratic_steps import stepwise_on_points
-from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.exchange import Outcome, solve
-from optlaws.synthesis.method.units import units_of
+from optlaws.synthesis.method.presolve import contradiction, independent, units_of
 from optlaws.synthesis.pareto import HEADINGS, undominated, value_of
 from optlaws.synthesis.problem.constants import (
     ALIASES,

@@ -21,7 +21,6 @@ from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
-from optlaws.synthesis.method.contacts import polished
 from optlaws.synthesis.method.discretised.on_points import (
     Answer,
     first_points,
@@ -30,10 +29,16 @@ from optlaws.synthesis.method.discretised.on_points import (
     vertex_on_points,
     with_extrema,
 )
-from optlaws.synthesis.method.equations import contradiction, independent
-from optlaws.synthesis.method.identified import as_answered, identified
-from optlaws.synthesis.method.units import units_of
-from optlaws.synthesis.method.vanishing import amplitudes, at_apex, nearly_vanished, vanishing
+from optlaws.synthesis.method.newton import as_answered, identified, polished
+from optlaws.synthesis.method.presolve import (
+    amplitudes,
+    at_apex,
+    contradiction,
+    independent,
+    nearly_vanished,
+    units_of,
+    vanishing,
+)
 from optlaws.tolerances import BOUND_FEASIBILITY, EXCESS, STEP_SETTLED
 
 _STEP_SHOWS_CONTACTS = 1e-4  # of a law: after a quadratic step that is less Newton's method may find the contacts

@@ -13,8 +13,8 @@ from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.method.discretised.on_points import first_points
-from optlaws.synthesis.method.equations import contradiction
 from optlaws.synthesis.method.exchange import Outcome, answer_on_points, solve
+from optlaws.synthesis.method.presolve import contradiction
 from optlaws.synthesis.problem.constants import C, Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window
