@@ -148,7 +148,7 @@ from .synthesis.functionals.makers import (
 )
 from .synthesis.limits.closed_forms import acceleration_limit as acceleration_limit, limit as limit
 from .synthesis.limits.drive_limits import DriveLimit as DriveLimit, drive_limit as drive_limit
-from .synthesis.limits.laws import limit_law as limit_law
+from .synthesis.limits.closed_forms import limit_law as limit_law
 from .synthesis.pareto import Front as Front, pareto_front as pareto_front
 from .synthesis.problem.constants import (
     FUNCTIONALS as FUNCTIONALS,

@@ -1,7 +1,7 @@
 from .arrays.problems import ProblemArray as ProblemArray, map_arrays as map_arrays
 from .limits.closed_forms import acceleration_limit as acceleration_limit, limit as limit
 from .limits.drive_limits import DriveLimit as DriveLimit, drive_limit as drive_limit
-from .limits.laws import limit_law as limit_law
+from .limits.closed_forms import limit_law as limit_law
 from .pareto import Front as Front, pareto_front as pareto_front
 from .problem.constants import (
     FUNCTIONALS as FUNCTIONALS,

@@ -15,9 +15,9 @@ from optlaws.errors import InputError
 from optlaws.files.reading import check_names, entries_of, of_known_format
 from optlaws.lazy import imported
 from optlaws.numbers import listed, real
+from optlaws.numerics.exact import rounded_up
 from optlaws.synthesis.least_time.least_time import LeastTime
 from optlaws.synthesis.least_time.timed_move import MoveObjective, TimedMove
-from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.constants import FUNCTIONALS, meant, present_name
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.proven.front import FrontPoint, ProvenFront

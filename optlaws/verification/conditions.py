@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from flint import arb, ctx, fmpq_poly, fmpz_poly
 
+from optlaws.numerics.exact import rounded_up
 from optlaws.synthesis.families import names
-from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range

@@ -16,7 +16,7 @@ from optlaws.errors import InputError, OptlawsError
 from optlaws.files.reading import entries_of
 from optlaws.lazy import imported
 from optlaws.numbers import listed
-from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
+from optlaws.numerics.exact import rounded_down, rounded_up
 from optlaws.synthesis.problem.constants import FUNCTIONALS
 from optlaws.tolerances import STORED_VALUE
 from optlaws.verification.enclosing.balls import enclosed

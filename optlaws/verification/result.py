@@ -12,7 +12,7 @@ from optlaws.echo import shortened, unknown_key
 from optlaws.errors import InputError
 from optlaws.files.reading import is_number
 from optlaws.numbers import bounded
-from optlaws.synthesis.limits.rounding import rounded_down
+from optlaws.numerics.exact import rounded_down
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.tolerances import STATED_BOUND, STORED_VALUE
 from optlaws.verification.reading import number

@@ -16,8 +16,8 @@ from optlaws.files.reading import entries_of, renamed_entries
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.linkages.move_limit import MoveLimit
 from optlaws.numbers import real
+from optlaws.numerics.exact import rounded_down, rounded_up
 from optlaws.synthesis.limits.drive_limits import DriveLimit
-from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import evaluate
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate

@@ -111,7 +111,7 @@ def test_every_closed_form_has_a_line() -> None:
     public = {name for name, one in inspect.getmembers(closed_forms, inspect.isfunction) if "limit" in name}
     here = {getattr(one.at, "func", one.at).__name__ for one in LIMITS.values()}
     own_names = {name for name in public if getattr(closed_forms, name).__module__ == closed_forms.__name__}
-    assert own_names - {"limit", "acceleration_limit_at_jerk"} == here
+    assert own_names - {"limit", "limit_law", "acceleration_limit_at_jerk"} == here
     assert {one.constant for one in LIMITS.values()} == set(closed_forms.CONSTANTS)
 
 

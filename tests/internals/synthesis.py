@@ -1,5 +1,6 @@
 """Internals of `optlaws.synthesis` that tests look at by themselves."""
 
+from optlaws.numerics.exact import not_above, root_rounded_down, rounded_down, rounded_up
 from optlaws.synthesis import search, solve_many
 from optlaws.synthesis.arrays.continuation import StructureSegment, laws_along
 from optlaws.synthesis.arrays.newton_steps import States, converged, locally_optimal
@@ -35,7 +36,6 @@ from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.limits.phase_plane import TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_plane_program import optimum
-from optlaws.synthesis.limits.rounding import not_above, root_rounded_down, rounded_down, rounded_up
 from optlaws.synthesis.method import exchange, starts
 from optlaws.synthesis.method.discretised import ipopt, quadratic_steps
 from optlaws.synthesis.method.discretised.ipopt import KINDS, RowShape

@@ -6,8 +6,8 @@ from fractions import Fraction
 from math import isfinite
 
 from optlaws.errors import InputError
+from optlaws.numerics.exact import rounded_down
 from optlaws.synthesis.limits.closed_forms import best_velocity, limit, power_limit
-from optlaws.synthesis.limits.rounding import rounded_down
 from optlaws.synthesis.problem.combined import Combined
 from optlaws.synthesis.problem.constants import C_minus, C_plus, Functional
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term

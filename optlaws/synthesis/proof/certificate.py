@@ -20,7 +20,7 @@ from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.numbers import bounded
-from optlaws.synthesis.limits.rounding import rounded_down
+from optlaws.numerics.exact import rounded_down
 from optlaws.synthesis.problem.constants import present_name
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, least_violation, model_of, relaxed

@@ -10,7 +10,7 @@ from typing import Any
 
 from flint import arb, ctx, fmpq, fmpq_poly
 
-from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
+from optlaws.numerics.exact import rounded_down, rounded_up
 
 #: balls that hold the least and the greatest value of something
 Extremes = tuple[arb, arb]

@@ -15,7 +15,7 @@ from math import inf, isfinite
 from flint import arb, arb_mat, ctx
 
 from optlaws.errors import InputError
-from optlaws.synthesis.limits.rounding import rounded_up
+from optlaws.numerics.exact import rounded_up
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.nodes import Contact
