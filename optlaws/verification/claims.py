@@ -27,17 +27,19 @@ from optlaws.verification.conditions import Excess, excesses
 from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.bound import Along, Proof, prove
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.exact.least_times import least_time_of_any_law
+from optlaws.verification.exact.limits import least_time_of_any_law
 from optlaws.verification.file_entries import NO_FILE, FileEntry, entries, is_entry, kind_of
 from optlaws.verification.machine_results import axes, cam, least_period, of_cycle, overlap_of_axes, plan
-from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import (
     Claim,
     Data,
     Verification,
+    built,
     compare,
     every_claim,
     near,
+    number,
+    read,
     with_claims,
 )
 from optlaws.verification.stated_solutions import (

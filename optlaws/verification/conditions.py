@@ -23,9 +23,9 @@ from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.tolerances import BOUND_FEASIBILITY, COEFFICIENT_ROUNDING
 from optlaws.verification.enclosing.balls import Extremes, ball, rational, upper
 from optlaws.verification.enclosing.pieces import PolynomialPiece
+from optlaws.verification.enclosing.space import unknown_basis
 from optlaws.verification.enclosing.taylor_models import between, least_and_greatest
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.exact.of_basis import unknown_basis
 
 _BREAK_ROUNDING = 2.0**-50  # of k: by so much rounding moves a break to its mirror image
 

@@ -22,15 +22,16 @@ from optlaws.tolerances import STORED_VALUE
 from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.file_entries import kind_of
-from optlaws.verification.reading import built, number
 from optlaws.verification.result import (
     Claim,
     Data,
     Verification,
     at_most,
+    built,
     differences,
     every_claim,
     near,
+    number,
     recomputed,
     with_claims,
 )

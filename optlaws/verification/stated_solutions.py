@@ -32,17 +32,18 @@ from optlaws.verification.enclosing.balls import at, enclosed, rational
 from optlaws.verification.enclosing.taylor_models import between, least_and_greatest
 from optlaws.verification.exact.bound import Proof, prove
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.exact.limit import exact_limit
+from optlaws.verification.exact.limits import exact_limit
 from optlaws.verification.exact.rows import NoExactRowsError
-from optlaws.verification.reading import built, number
 from optlaws.verification.result import (
     Claim,
     Data,
     Proven,
     Verification,
     at_most,
+    built,
     compare,
     near,
+    number,
     of_number,
     recomputed,
     with_claims,

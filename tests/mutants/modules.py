@@ -46,7 +46,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "optlaws.formulas.slopes": ("tests/formulas/test_values.py",),
     "optlaws.shown.showing": ("tests/test_showing.py",),
     "optlaws.shown.steps": ("tests/test_showing.py",),
-    "optlaws.verification.reading": tuple(
+    "optlaws.verification.result": tuple(
         f"tests/verification/test_reading.py::test_{name}"  # the others need results/
         for name in (
             "a_wrong_file_is_refused_and_says_why",
@@ -57,7 +57,7 @@ TESTS: dict[str, tuple[str, ...]] = {
             "what_cannot_be_built_is_said_by_its_name",
         )
     ),
-    "optlaws.verification.machines.floors": ("tests/verification/machines/test_floors.py",),
+    "optlaws.verification.machines.transfer": ("tests/verification/machines/test_floors.py",),
     "optlaws.synthesis.spaces.space": ("tests/synthesis/spaces/test_space.py",),
     "optlaws.cycles.optimisation.optimal": (
         "tests/cycles/optimisation/test_optimal.py",

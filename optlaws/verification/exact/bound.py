@@ -8,22 +8,172 @@ multipliers are repaired: changed as little as makes the sum depend on nothing, 
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import inf, isfinite
+from math import factorial, inf, isfinite
+from typing import NamedTuple
 
 from flint import arb, arb_mat, ctx
 
 from optlaws.errors import InputError
 from optlaws.numerics.exact import rounded_up
+from optlaws.synthesis.problem.constants import PeakConstant
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
-from optlaws.synthesis.proof.nodes import Contact
+from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, PlaceRange, closes
+from optlaws.synthesis.proof.peak_rows import CLAIM, peak_of, roots_of
+from optlaws.synthesis.proof.sublevel_bounds import Number, Sublevel
 from optlaws.verification.enclosing.balls import ball, lower, upper
 from optlaws.verification.exact.boxes import tree_holds
-from optlaws.verification.exact.charge import Vector, charge, summed
-from optlaws.verification.exact.places import places_hold
-from optlaws.verification.exact.rows import ExactRows
+from optlaws.verification.exact.rows import BallRow, ExactRows
+
+Vector = list[arb]
+
+
+def summed(weights: Sequence[arb], vectors: Sequence[Vector]) -> Vector:
+    """Weighted vectors, added up."""
+    return list((arb_mat([list(weights)]) * arb_mat(list(vectors))).entries())
+
+
+def charge(sublevel: Sublevel, rows: ExactRows, total: Vector, claim: Fraction) -> arb | None:
+    """The most by which a sum's slopes can lower it in laws below the claim; None where nothing bounds it."""
+    greatest, least = sublevel.greatest_values(claim), sublevel.least_values()
+    terms, beyond = rows.space.terms, arb(0)
+    for name, slope in zip(rows.names, total[terms:-1], strict=True):
+        # a rising slope lowers the sum most where the constant is least, a falling one where it is greatest
+        low = Fraction(0) if bool(slope <= 0) else least.get(name, Fraction(0))
+        high = Fraction(0) if bool(slope >= 0) else greatest.get(name, inf)
+        if not (isfinite(low) and isfinite(high)):
+            return None
+        beyond -= slope.max(arb(0)) * ball(low) + slope.min(arb(0)) * ball(high)
+    slopes = total[:terms]
+    if all(slope.is_zero() for slope in slopes):
+        return beyond
+    bounded = sublevel.means(greatest)
+    known = [(rows.space.moments(nu), ball(mean)) for nu, mean in bounded.items()]
+    if not bounded:
+        # an output may determine the law where nothing else says how large it is
+        sized = [
+            name for name, output in rows.outputs.items() if output.exact.both and isfinite(greatest.get(name, inf))
+        ]
+        known = [([rows.outputs[name].moments()], ball(greatest[name])) for name in sized]
+    priced = [(worth(moments, rows.settled, slopes), mean) for moments, mean in known]
+    worths = [value.known + value.by_mean * mean for value, mean in priced if value is not None]
+    if not known:
+        worths = list(_paid(sublevel, rows, total, least))
+    return beyond + min(worths, key=upper) if worths else None
+
+
+def _paid(sublevel: Sublevel, rows: ExactRows, total: Vector, least: Mapping[str, Number]) -> Iterator[arb]:
+    """The worth of slopes where a constant that bounds a mean in proportion, however great it is, outweighs them."""
+    terms = rows.space.terms
+    for name, slope in zip(rows.names, total[terms:-1], strict=True):
+        pays = bool(slope > 0) and least.get(name, 0) >= 0
+        for nu, none, growth in sublevel.means_by(name) if pays else ():
+            value = worth(rows.space.moments(nu), rows.settled, total[:terms])
+            if value is not None and bool(value.by_mean * ball(growth) <= slope):
+                yield value.known + value.by_mean * ball(none)
+
+
+class Worth(NamedTuple):
+    """The most by which slopes can lower a sum: what is known, and how much for each unit of a mean magnitude."""
+
+    known: arb
+    by_mean: arb
+
+
+def worth(pieces: Sequence[Sequence[Vector]], settled: Sequence[Vector], slopes: Vector) -> Worth | None:
+    """What slopes in the coordinates are worth; None where the moments do not determine the law.
+
+    Parameters
+    ----------
+    pieces
+        Of each piece of the interval, moments of the function with functions that are at most 1 in magnitude.
+    settled
+        Rows that are 0 in every law: of what no moment sees.
+    slopes
+        One for each coordinate.
+    """
+    rows = [row for piece in pieces for row in piece] + list(settled)
+    matrix = arb_mat([row[:-1] for row in rows])
+    try:
+        # the plain elimination loses balls that are narrow enough by far
+        solution = (matrix.transpose() * matrix).solve(arb_mat(len(slopes), 1, slopes), algorithm="precond")
+    except ZeroDivisionError:
+        return None
+    weights = (matrix * solution).entries()
+    known, first, most = arb(0), 0, arb(0)
+    for weight, row in zip(weights, rows, strict=True):
+        known += weight * arb(row[-1])
+    for piece in pieces:
+        most = most.max(sum((abs(weight) for weight in weights[first : first + len(piece)]), arb(0)))
+        first += len(piece)
+    return Worth(known, most) if known.is_finite() and most.is_finite() else None
+
+
+class PlaceSteps:
+    """The nodes of a certificate's tree, applied again."""
+
+    def __init__(self, certificate: Certificate, peak: PeakConstant) -> None:
+        self.rows, self.peak, limits = ExactRows(certificate), peak, certificate.problem.range(peak.name)
+        self.claim, self.low = Fraction(certificate.claim or 0), Fraction(0 if limits is None else limits.low)
+        self.means = self.rows.sublevel.means(self.rows.sublevel.greatest_values(self.claim))
+
+    def after(self, here: PlaceRange, node: Node) -> list[PlaceRange] | None:
+        """The ranges that remain of a range after a node; None if it is no node of places."""
+        if type(node) is Leaf:
+            most = self.upper(here, node)
+            low = ball(self.low)
+            return [] if most is not None and bool(most + self.remainder(here) < low) else [here]
+        return here.after(node)
+
+    def upper(self, here: PlaceRange, leaf: Leaf) -> arb | None:
+        """Most that sign times the derivative in the middle can be below the claim; None if nothing is known."""
+        rows = self.rows
+        derivative = BallRow([-ball(here.sign) * value for value in self._values(0, here)])
+        below = BallRow([arb(0)] * (rows.space.terms + 1), rows.cost, -ball(self.claim))
+        weighed = [(arb(1), derivative)]
+        for contact in leaf.contacts:
+            row = below if contact.constraint == CLAIM else rows.row(contact)
+            if row is not None and contact.multiplier > 0.0:
+                weighed.append((ball(contact.multiplier), row))
+        weighed += zip(map(ball, leaf.equations), rows.equations, strict=False)
+        total = summed([weight for weight, _ in weighed], [row.vector(rows.names) for _, row in weighed])
+        lost = charge(rows.sublevel, rows, total, self.claim)
+        return None if lost is None else lost - total[-1]
+
+    def remainder(self, here: PlaceRange) -> arb:
+        """Most by which a peak in the range, where the slope is 0, can be above the value in its middle: by Taylor."""
+        reach, highest = ball((Fraction(here.high) - Fraction(here.low)) / 2), self.rows.space.degree_of(0)
+        if here.low == here.high:
+            return arb(0)
+        sizes = (
+            self._magnitude(self._values(2 + i, here)) * reach**i / factorial(i)
+            for i in range(highest - self.peak.nu - 1)
+        )
+        return sum(sizes, arb(0)) * reach * reach / 2
+
+    def _values(self, further: int, here: PlaceRange) -> list[arb]:
+        return self.rows.space.values(self.peak.nu + further, (Fraction(here.low) + Fraction(here.high)) / 2)
+
+    def _magnitude(self, row: list[arb]) -> arb:
+        """Most that the magnitude of a function of the law, a row of its coordinates, can be below the claim."""
+        space, settled = self.rows.space, self.rows.settled
+        known = [(worth(space.moments(nu), settled, row[:-1]), ball(mean)) for nu, mean in self.means.items()]
+        sizes = [abs(row[-1] - value.known) + value.by_mean * mean for value, mean in known if value is not None]
+        return min(sizes, key=lambda size: float(size.upper()), default=arb.pos_inf())
+
+
+def places_hold(certificate: Certificate, bits: int) -> bool:
+    """Whether the tree of a certificate over the places of a peak leaves none with every rounding enclosed."""
+    peak = peak_of(certificate.problem, certificate.peak)
+    if peak is None:
+        return False
+    with ctx.workprec(bits):
+        roots = roots_of(certificate.problem, peak.name)
+        return closes(certificate.tree, roots, PlaceSteps(certificate, peak).after)
+
 
 _MORE_BITS = (1, 4, 16)
 _DEAR = 1e-10  # of a sum: what a charge that is more takes, repaired multipliers may not

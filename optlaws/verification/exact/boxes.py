@@ -28,11 +28,10 @@ from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, Split, Tightening
 from optlaws.synthesis.proof.power import formula_underestimators
 from optlaws.synthesis.proof.power.formula_underestimators import PEAKS, Way
 from optlaws.synthesis.proof.power.rows import POWER_ROWS, applies
-from optlaws.verification.enclosing.ball_formulas import BALLS
-from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.enclosing.balls import BALLS, ball
 from optlaws.verification.exact.law import known
 from optlaws.verification.exact.rows import ExactRows, formula_windows
-from optlaws.verification.machines.floors import floor
+from optlaws.verification.machines.transfer import floor
 
 Vector = list[arb]
 

@@ -29,15 +29,17 @@ from optlaws.synthesis.functionals.formula_rows import (
     squared,
 )
 from optlaws.synthesis.spaces.of_basis import space_of
-from optlaws.verification.enclosing.ball_formulas import (
+from optlaws.verification.enclosing.balls import (
     BALLS,
     POLYNOMIALS,
+    Extremes,
+    ball,
     composed,
     exact_pieces,
+    rational,
     series_of,
     series_on_cell,
 )
-from optlaws.verification.enclosing.balls import Extremes, ball, rational
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.enclosing.space import ExactSpace
 from optlaws.verification.enclosing.taylor_models import between, extremes, integrals, least_and_greatest

@@ -38,6 +38,7 @@ from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.tolerances import BESIDE_BREAK
 from optlaws.verification.enclosing.balls import ball, upper
+from optlaws.verification.enclosing.space import exact_space
 from optlaws.verification.exact.law import DerivativePeak, ExactLaw, OfFormula, OfMachine, known, of_derivatives
 from optlaws.verification.exact.motion_formulas import (
     convex_branches,
@@ -47,11 +48,10 @@ from optlaws.verification.exact.motion_formulas import (
     tangent_columns,
     tangent_integral,
 )
-from optlaws.verification.exact.of_basis import exact_space
-from optlaws.verification.machines.floors import floor
 from optlaws.verification.machines.output_motion import of_space
 from optlaws.verification.machines.outputs import OutputRows
 from optlaws.verification.machines.residuals import exact_residual
+from optlaws.verification.machines.transfer import floor
 
 _NEAR = Fraction(1, 10**9)
 _BESIDE = Fraction(BESIDE_BREAK) / 2

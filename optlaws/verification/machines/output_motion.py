@@ -12,8 +12,7 @@ from flint import acb, acb_mat, acb_series, arb, arb_mat, arb_series, ctx, fmpq,
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.verification.enclosing.ball_formulas import composed
-from optlaws.verification.enclosing.balls import ball, rational, series_length
+from optlaws.verification.enclosing.balls import ball, composed, rational, series_length
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.enclosing.space import ExactSpace
 from optlaws.verification.machines.transfer import Pole, Transfer

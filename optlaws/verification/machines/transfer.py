@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
+from math import inf
 from typing import Any
 
 from flint import acb, acb_poly, acb_series, fmpq, fmpq_mat, fmpq_poly, fmpq_series, fmpz_poly
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.mechanisms.machine.output_constants import OutputPeak
 from optlaws.mechanisms.machine.state_space import StateSpace
+from optlaws.synthesis.problem.constants import Functional
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.verification.enclosing.balls import rational, series_length
 
 Matrix = Sequence[Sequence[float]]
@@ -132,3 +137,24 @@ def quotient(kind: Any, above: Sequence[Any], below: Sequence[Any], count: int) 
     with series_length(count):
         series = kind(above) / kind(below)
         return [series[i] for i in range(count)]
+
+
+def floor(constant: Functional, conditions: BoundaryConditions) -> Fraction | float:
+    """A lower bound of a constant in laws with these end conditions; minus infinity if nothing is known.
+
+    A peak of one side of an output may be below 0, but not below the output where the law begins.
+    """
+    if not isinstance(constant, OutputPeak) or len(constant.signs) == 2:
+        return constant.floor(conditions)
+    start = conditions.start
+    if constant.steady or constant.cycle is not None or constant.within[0] > 0.0:
+        return -inf
+    transfer = Transfer(constant.machine, constant.output)
+    order, direct = transfer.order, transfer.direct
+    drifts = transfer.characteristic(fmpq(0)) == 0
+    if order + direct.degree() >= len(start) or (start[0] and drifts):
+        return -inf
+    still = transfer.laurent(0)[0] * rational(start[0]) if start[0] and not order else fmpq(0)
+    begun = sum((direct[i - order] * rational(start[i]) for i in range(1, order + direct.degree() + 1)), fmpq(0))
+    value = (still + begun) * int(constant.signs[0])
+    return Fraction(int(value.p), int(value.q)) + Fraction(constant.signs[0]) * Fraction(constant.offset)

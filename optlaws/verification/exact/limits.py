@@ -1,4 +1,4 @@
-"""The time that no law of any degree is faster than, in fractions: what the closed form of segments proves.
+"""What closed forms prove for laws of any degree: a lower bound of what is minimised, a time that none is faster than.
 
 A phase that gains a velocity takes no less than its segments, and both phases with the greatest velocity between them
 cover the stroke (docs/how-to/least-time.md). A velocity with which they cover less is below the greatest of the fastest
@@ -15,6 +15,31 @@ from typing import NamedTuple
 
 from optlaws.synthesis.least_time.move_limits import phase
 from optlaws.synthesis.least_time.timed_move import TimedMove
+from optlaws.synthesis.limits.of_problem import limit_of_sum
+from optlaws.synthesis.problem.combined import Combined
+from optlaws.synthesis.problem.constants import Functional
+from optlaws.synthesis.problem.expression import leaves
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.verification.exact.law import known
+from optlaws.verification.machines.transfer import floor
+
+
+def exact_limit(problem: Problem) -> Fraction | None:
+    """A lower bound of the objective for all laws of the problem; None where no closed form exists.
+
+    Only C, D, J and the RMS of c count, and C and D of its cam; every other constant is to be at least 0.
+
+    >>> exact_limit(Problem(B=1.5, order=4, minimise="D"))
+    Fraction(9, 4)
+    """
+    constants = [leaf for _, leaf in leaves(problem.objective) if isinstance(leaf, Functional)]
+    if problem.boundary is not None or any(floor(constant, problem.conditions) < 0 for constant in constants):
+        return None
+    for constant in constants:
+        if isinstance(constant, Combined):
+            known(constant)
+    return limit_of_sum(problem, problem.objective, exact=True) or None
+
 
 _BITS = 128
 #: the order of laws whose acceleration may jump at the ends, and the least of laws that have a snap
