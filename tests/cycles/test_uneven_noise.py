@@ -25,6 +25,7 @@ def is_read(table: OldTable, room: float) -> None:
         assert peak.low <= greatest <= peak.high <= 1.3 * greatest
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("worn", [25.0, 120.0, 250.0])
 def test_a_worn_flank_has_noise_of_its_own(worn: float) -> None:
     x = np.linspace(0.0, 360.0, 721)
@@ -41,6 +42,7 @@ def test_rows_of_fewer_decimals_have_more_noise() -> None:
     is_read(table, 3.0)
 
 
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("rows", [2, 3, 4])
 @pytest.mark.parametrize("first", [70, 250, 330, 520])
 def test_wrong_points_beside_each_other_are_left_out(rows: int, first: int) -> None:
