@@ -17,6 +17,7 @@ from optlaws.cams.followers.contact import Friction, Transmission
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.specification.drive import ProcessEntries, read_linear_drive
 from optlaws.cycles.specification.limits import FORCES
+from optlaws.cycles.specification.load import is_process
 from optlaws.echo import unknown_key
 from optlaws.entries.declared import Declared, ValueOf, declared, documented_by, entry
 from optlaws.entries.value_types import Measured, Number, ReadBy, Together
@@ -158,7 +159,7 @@ class CamForces:
         The force of a process on the follower, with the entries of a cycle's: `{"force": [("0 deg", "0 N"), ("90 deg",
         "-300 N"), ("360 deg", "0 N")], "over": "master"}`, above 0 where it pushes to greater displacements; over the
         "time" t, the "master", which is the cam's angle m, or the displacement s of the "driven" follower. A table over
-        time or angle jumps where a place is given twice.
+        time or angle jumps where a place is given twice. The process force of its cycle unless given.
 
     Raises
     ------
@@ -210,7 +211,7 @@ class CamForces:
     @kept_property
     def process_force(self) -> ProcessByAngle:
         """The force of the process on the follower over the cam's angle."""
-        return read_process_by_angle(self.process, self.cam.displacement, self.rate)
+        return read_process_by_angle(process_on(self.cam, self.process), self.cam.displacement, self.rate)
 
     @kept_property
     def edges(self) -> Array:
@@ -385,6 +386,15 @@ def _plain(enclosure: Extremes) -> dict[str, float]:
         "low": enclosure.low,
         "high": enclosure.high,
     }
+
+
+def process_on(cam: DiscCam, given: Any) -> Any:
+    """The entries of a process force on the follower of a cam: those given, or else those of the load of its cycle."""
+    motion = cam.motion
+    if given is not None or not isinstance(motion, Cycle | Plan) or not is_process(motion.load):
+        return given
+    load = dict(motion.load)
+    return load | {"over": "driven"} if load.get("over") == "input" else load  # the follower is the input
 
 
 #: what a force may be over, with the name in formulas

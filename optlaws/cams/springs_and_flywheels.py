@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.forces import CamForces, read_process_by_angle
+from optlaws.cams.forces import CamForces, process_on, read_process_by_angle
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, documented_by, entry
@@ -177,7 +177,8 @@ def least_spring(
     drive
         What else the follower moves: mass or inertia, gravity, viscous, dry.
     process
-        The force of a process on the follower, as of `CamForces`; over the time only where both speeds are the same.
+        The force of a process on the follower, as of `CamForces`, that of its cycle unless given; over the time only
+        where both speeds are the same.
 
     Raises
     ------
@@ -201,7 +202,7 @@ def least_spring(
         if key in drive:
             raise InputError(f"drive: the {key} is sought with the spring: to fix it give {key}=... beside the drive")
     if sought.range[0] < sought.range[1]:  # a force over time, which is another at each speed, is refused
-        read_process_by_angle(process, cam.displacement, None)
+        read_process_by_angle(process_on(cam, process), cam.displacement, None)
     forces, units = CamForces(cam, sought.speeds[1], drive, process=process), _UNITS[cam.displacement.axis]
     given = {"force": force, "preload": preload, "stiffness": stiffness}
     least, *known = (

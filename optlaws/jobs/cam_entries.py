@@ -20,12 +20,14 @@ from optlaws.cams.springs_and_flywheels import (
     SoughtSpring,
 )
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.optimisation.objectives import SUMS, kind_of
 from optlaws.cycles.specification.drive import ProcessEntries
+from optlaws.cycles.specification.load import is_process
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.specification.segments import CycleSegment, Move
 from optlaws.entries.declared import ValueOf, declared, entry, same
 from optlaws.entries.value_types import Choice, Listed, Measured, Number, Switch, Whole
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.kept import kept_property
@@ -33,6 +35,8 @@ from optlaws.motion.quantities import TURN, Exact, quantity
 from optlaws.numbers import NumberOrQuantity, Quantity
 
 _LENGTH = Measured("length", above=0.0)
+#: limits of the drive of a motion
+_OF_DRIVE = {"force", "torque", "power", "rms force", "rms torque", "energy"}
 
 
 @declared
@@ -106,7 +110,10 @@ class CamProblemFile(CamOfMotion, title="a cam"):
     )
     pair: ReturnFollower | None = entry(ValueOf(ReturnFollower), "A return cam.", default=None)
     process: Any = entry(
-        ValueOf(ProcessEntries), "A process force on the follower, in forces and spring.", default=None
+        ValueOf(ProcessEntries),
+        "A process force on the follower: in forces and spring, and where they are of the drive in what the motion "
+        "minimises and limits.",
+        default=None,
     )
     forces: CamForcesEntries | None = entry(
         ValueOf(CamForcesEntries), "Contact forces under the drive of the motion.", default=None
@@ -122,6 +129,17 @@ class CamProblemFile(CamOfMotion, title="a cam"):
     def _from_earlier(cls, data: dict[str, Any]) -> dict[str, Any]:
         """The best "base circle" of earlier files is the prime circle."""
         return data | {"best": "prime circle"} if data.get("best") == "base circle" else data
+
+    @kept_property
+    def cycle(self) -> Cycle:
+        """The motion of the follower, with the process force as its load where the motion speaks of its drive."""
+        cycle = cycle_of(self.motion, self.speed, self.period)
+        if self.process is None or not _speaks_of_drive(self.motion):
+            return cycle
+        with located("process"):
+            loaded = replace(cycle, load=self.process.to_dict())
+            _ = loaded.in_si  # which reads its table
+        return loaded
 
     @kept_property
     def limits(self) -> CamLimits:
@@ -141,11 +159,24 @@ class CamProblemFile(CamOfMotion, title="a cam"):
     def _check(self) -> None:
         super()._check()
         _ = self.limits  # which checks them together
+        load = None if self.process is None else self.motion.load
+        if load is not None and (is_process(load) or _speaks_of_drive(self.motion)):
+            raise InputError(
+                "motion: load: beside [process] the motion takes no load: leave one of them out, and give the force "
+                "of a process as [process]"
+            )
         if self.best in {"laws", "prime circle"} and not any(map(is_optimal, self.cycle.segments)):
             raise InputError(
                 f"best = {self.best!r} looks for laws, and each motion has a given one: leave best out, or the law of "
                 "a segment"
             )
+
+
+def _speaks_of_drive(motion: AxisEntries) -> bool:
+    """Whether what a motion minimises or limits is of its drive."""
+    least = kind_of(motion.minimise)[0]
+    limited = [*(motion.limits or {}), *(name for each in motion.segment for name in getattr(each, "limits", {}))]
+    return least.is_driven or least in SUMS or bool(_OF_DRIVE.intersection(limited))
 
 
 @declared

@@ -20,6 +20,7 @@ from optlaws import (
     OscillatingFlat,
     Return,
     Rise,
+    TranslatingFlat,
     TranslatingRoller,
     least_spring,
 )
@@ -348,6 +349,23 @@ def test_a_spring_under_a_process_holds_at_every_speed_and_no_lesser_does() -> N
     for more, less in ((1.05, 0.97), (0.95, 1.03), (1.0, 0.99)):
         least, greatest = contact(more * spring.stiffness, less * spring.preload)
         assert least < 10.0 - 1e-3 or greatest > spring.greatest * (1 - 1e-9)
+
+
+@pytest.mark.parametrize("over", ["master", "time", "driven", "input"])
+def test_the_process_of_a_cycle_acts_on_the_cam_as_one_given_beside_it(over: str) -> None:
+    places = {"master": ("0 deg", "360 deg"), "time": ("0 s", "1 s")}.get(over, ("0 mm", "40 mm"))
+    load = {"over": over, "force": [(places[0], "0 N"), (places[1], "-250 N")]}
+    moves = [Rise("40 mm", "150 deg", law="345"), Return(duration="150 deg", law="345"), Dwell()]
+    bare, loaded = (
+        DiscCam(Cycle(moves, speed="60 rpm", drive=MOVED, load=of), "50 mm", TranslatingFlat()) for of in (None, load)
+    )
+    process = load | {"over": "driven"} if over == "input" else load
+    beside, own = CamForces(bare, process=process), CamForces(loaded)
+    assert own.contact == beside.contact
+    assert own.contact.most > CamForces(bare).contact.most + 50.0
+    assert own.torque == beside.torque
+    at_speed = {"drive": {"mass": "2 kg"}, "speeds": ("60 rpm", "60 rpm"), "preload": "20 N"}
+    assert least_spring(loaded, **at_speed) == least_spring(bare, process=process, **at_speed)
 
 
 @pytest.mark.parametrize(

@@ -120,6 +120,30 @@ def test_the_best_laws_without_a_prime_circle_are_on_the_least_one_of_modified_s
     assert values["prime circle"] == pytest.approx(0.0, abs=1e-6)
 
 
+PUMP = (
+    HEAD + 'best = "laws"\nradius_of_curvature = "8 mm"\nprime_radius = "40 mm"\n[forces]\n'
+    '[follower]\nkind = "translating flat"\n'
+    '[process]\nover = "master"\nforce = [["0 deg", "0 N"], ["30 deg", "-250 N"], ["120 deg", "-250 N"], '
+    '["150 deg", "0 N"], ["360 deg", "0 N"]]\n'
+    + MOTION.replace(
+        "degree = 5", 'degree = 5\nminimise = "power"\ndrive = { mass = "0.45 kg", preload = "80 N" }\n'
+        'limits = { acceleration = "40 m/s^2" }')
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("of_motion", [False, True])
+def test_the_least_power_is_that_at_the_shaft_under_a_process(tmp_path: Path, *, of_motion: bool) -> None:
+    process = PUMP[PUMP.index("[process]") : PUMP.index("\n[motion]")]
+    text = PUMP
+    if of_motion:
+        text = PUMP.replace(process, "") + process.replace("[process]", "[motion.load]")
+    reply = told_of(tmp_path, text)
+    speed = 200 * 2 * np.pi / 60
+    shaft = max(abs(reply["forces"]["torque"][side]) for side in ("low", "high"))
+    assert reply["best"]["objective"] == pytest.approx(shaft * speed, rel=1e-6)
+    assert shaft * speed > 115.5  # W: 330 N at the mean velocity of 0.35 m/s
+
+
 def test_the_least_prime_circle_is_that_of_the_library(tmp_path: Path) -> None:
     page, reply, _ = done(tmp_path, BASE)
     assert "of the laws of least acceleration" in page
@@ -276,6 +300,8 @@ def test_a_barrel_keeps_its_pressure_angle_or_says_where_it_is_steep(tmp_path: P
         (OFFSET, '"-300 N"', '"-300 mm"', "process: force: value 3"),
         (OFFSET, "process", "proces", "proces"),
         (OFFSET, '"contact"', '"contacts"', "greatest"),
+        (PUMP, 'minimise = "power"', 'minimise = "power"\nload = { force = "-9 N" }', "load: beside .process."),
+        (PUMP, '["120 deg", "-250 N"]', '["30 deg", "-250 N"]', "process: .*'30 deg'.*'30 deg'"),
         (PAIR, 'distance = "190 mm"', 'angle = "110 deg"', "pair: a pair of TranslatingRoller is given by its"),
         (PAIR, '"190 mm"', '"90 mm"', "pair: .*distance"),
         (BARREL, "depth", "deep", "deep.*depth"),
