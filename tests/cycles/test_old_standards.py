@@ -106,7 +106,7 @@ STANDARDS = {
             there_and_back("modified sine", 30.0, (20.0, 120.0), (180.0, 260.0)), np.linspace(0.0, 360.0, rows), 0.005,
             7, 3, near=1.5,
         )
-        for rows in (361, 721, 1441)
+        for rows in (1441, 721, 361)
     ],
     "standard laws between dwells": [
         Standard(there_and_back(name, 30.0, *PLAIN), noise=noise, seed=7, decimals=12, near=1.0)
