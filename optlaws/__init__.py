@@ -41,7 +41,7 @@ declare(
     "basis",
     {
         "optlaws.synthesis.spaces.bases": "bernstein chebyshev pieces powers",
-        "optlaws.synthesis.spaces.periodic_pieces": "periodic",
+        "optlaws.synthesis.spaces.free_pieces": "periodic",
         "optlaws.synthesis.spaces.splines": "bsplines",
     },
 )

@@ -189,7 +189,7 @@ from .synthesis.spaces.bases import (
     Powers as Powers,
 )
 from .synthesis.spaces.end_conditions import BoundaryConditions as BoundaryConditions, law_from_z as law_from_z
-from .synthesis.spaces.periodic_pieces import PeriodicPieces as PeriodicPieces
+from .synthesis.spaces.free_pieces import PeriodicPieces as PeriodicPieces
 from .synthesis.spaces.splines import BSplines as BSplines
 from .synthesis.status import Status as Status
 

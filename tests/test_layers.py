@@ -107,7 +107,6 @@ CHECKERS = (
     "optlaws.verification",
     "optlaws.synthesis.proof.certificate",
     "optlaws.synthesis.proof.data",
-    "optlaws.synthesis.proof.sublevel_bounds",
     "optlaws.synthesis.proof.duality",
     "optlaws.synthesis.proof.peak_rows",
     "optlaws.synthesis.proof.power.box",

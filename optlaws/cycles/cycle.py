@@ -24,7 +24,7 @@ from optlaws.numbers import NumberOrQuantity
 from optlaws.spelling import either_spelling
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.spaces.bases import Basis, Pieces
-from optlaws.synthesis.spaces.periodic_pieces import PeriodicPieces
+from optlaws.synthesis.spaces.free_pieces import PeriodicPieces
 from optlaws.tolerances import CYCLE_OPTIMALITY
 
 if TYPE_CHECKING:

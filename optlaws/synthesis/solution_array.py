@@ -388,7 +388,7 @@ class SolutionArray(JsonText):
 
         `optlaws verify` checks each solution, and `from_dict` reads it again.
         """
-        from optlaws.synthesis.problem.plain_entries import plain_entries
+        from optlaws.synthesis.stored_solutions import plain_entries
 
         results = map(self.result, range(self.size))
         return {

@@ -18,7 +18,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
-from optlaws.synthesis.spaces.periodic_pieces import PeriodicPieces
+from optlaws.synthesis.spaces.free_pieces import PeriodicPieces
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.tolerances import BOUND_FEASIBILITY, COEFFICIENT_ROUNDING
 from optlaws.verification.enclosing.balls import Extremes, ball, rational, upper

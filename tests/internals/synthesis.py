@@ -63,7 +63,7 @@ from optlaws.synthesis.program.evaluation import evaluate, shortfalls
 from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model_of, relaxed
 from optlaws.synthesis.proof import make
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, model_of_leaf
-from optlaws.synthesis.proof.duality import lines_of, row_of, sum_of_rows, summed
+from optlaws.synthesis.proof.duality import Sublevel, lines_of, row_of, spread, sum_of_rows, summed
 from optlaws.synthesis.proof.infeasible import failure
 from optlaws.synthesis.proof.nodes import PlaceRange
 from optlaws.synthesis.proof.peak_rows import PeakRows
@@ -72,7 +72,6 @@ from optlaws.synthesis.proof.power.formula_underestimators import FormulaRows, a
 from optlaws.synthesis.proof.power.rows import Anchors, PowerRows, rows_of, velocity_brackets
 from optlaws.synthesis.proof.power.search import Region, _points, searched
 from optlaws.synthesis.proof.power.shared_energy import secant_over_inverse, secant_over_root
-from optlaws.synthesis.proof.sublevel_bounds import Sublevel, spread
 from optlaws.synthesis.search import LawSearch, attempt
 from optlaws.synthesis.solve import _neighbours
 from optlaws.synthesis.solve_many import _together, solved

@@ -49,7 +49,7 @@ from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.spaces.bases import Chebyshev, Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
-from optlaws.synthesis.spaces.periodic_pieces import PeriodicPieces
+from optlaws.synthesis.spaces.free_pieces import PeriodicPieces
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import AGREEMENT
 

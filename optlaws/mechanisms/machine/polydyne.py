@@ -21,8 +21,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.numbers import Array, not_negative, positive
 from optlaws.numerics import chebyshev
-from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
-from optlaws.synthesis.problem.constants import FUNCTIONALS, MAKERS, Functional
+from optlaws.synthesis.problem.constants import FUNCTIONALS, MAKERS, CombinedPeak, CombinedPower, Functional
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.tolerances import JUMP
 

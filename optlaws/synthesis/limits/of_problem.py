@@ -8,8 +8,7 @@ from math import isfinite
 from optlaws.errors import InputError
 from optlaws.numerics.exact import rounded_down
 from optlaws.synthesis.limits.closed_forms import best_velocity, limit, power_limit
-from optlaws.synthesis.problem.combined import Combined
-from optlaws.synthesis.problem.constants import C_minus, C_plus, Functional
+from optlaws.synthesis.problem.constants import C_minus, C_plus, Combined, Functional
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range

@@ -17,8 +17,7 @@ from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Program
 from optlaws.synthesis.families.names import RowName, VariableName
 from optlaws.synthesis.families.piece_series import widened
-from optlaws.synthesis.problem.combined import facing, floats
-from optlaws.synthesis.problem.constants import B, Functional, PowerConstant
+from optlaws.synthesis.problem.constants import B, Functional, PowerConstant, facing, floats
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range

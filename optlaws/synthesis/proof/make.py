@@ -22,9 +22,8 @@ from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, relaxed, relaxed_power
 from optlaws.synthesis.proof.certificate import OBJECTIVE, RELAXED, VIOLATION, Certificate, weighted_rows
-from optlaws.synthesis.proof.duality import row_of, sum_of_lines
+from optlaws.synthesis.proof.duality import Sublevel, row_of, sum_of_lines
 from optlaws.synthesis.proof.nodes import Contact
-from optlaws.synthesis.proof.sublevel_bounds import Sublevel
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.tolerances import EMPTY_ROW, OPTIMALITY_GAP, STATED_BOUND
 

@@ -17,9 +17,8 @@ from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.problem.constants import FUNCTIONALS, PeakConstant
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.proof.duality import lines_of, sum_of_rows
+from optlaws.synthesis.proof.duality import Sublevel, lines_of, moments, sum_of_rows
 from optlaws.synthesis.proof.nodes import Leaf, Node, PlaceRange
-from optlaws.synthesis.proof.sublevel_bounds import Sublevel, moments
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.tolerances import VALUE_ROUNDING
 

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.synthesis.spaces.bases import Basis, Chebyshev, Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
-from optlaws.synthesis.spaces.free_pieces import PieceSpace
-from optlaws.synthesis.spaces.periodic_pieces import PeriodicPieces, PeriodicSpace
+from optlaws.synthesis.spaces.free_pieces import PeriodicPieces, PeriodicSpace, PieceSpace
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.spline_space import SplineSpace

@@ -15,7 +15,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
-from optlaws.synthesis.spaces.periodic_pieces import PeriodicPieces
+from optlaws.synthesis.spaces.free_pieces import PeriodicPieces
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.verification.enclosing.balls import at, ball, rational
 

@@ -21,9 +21,9 @@ from optlaws.numerics.exact import rounded_up
 from optlaws.synthesis.problem.constants import PeakConstant
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
+from optlaws.synthesis.proof.duality import Number, Sublevel
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, PlaceRange, closes
 from optlaws.synthesis.proof.peak_rows import CLAIM, peak_of, roots_of
-from optlaws.synthesis.proof.sublevel_bounds import Number, Sublevel
 from optlaws.verification.enclosing.balls import ball, lower, upper
 from optlaws.verification.exact.boxes import tree_holds
 from optlaws.verification.exact.rows import BallRow, ExactRows

@@ -24,8 +24,15 @@ from optlaws.mechanisms.machine.output_constants import OutputPeak, OutputRms
 from optlaws.mechanisms.machine.residual import Residual
 from optlaws.synthesis.functionals.formula_rows import split, squared
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue
-from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
-from optlaws.synthesis.problem.constants import Functional, PeakConstant, PeakJerk, PowerConstant, RootMeanSquare
+from optlaws.synthesis.problem.constants import (
+    CombinedPeak,
+    CombinedPower,
+    Functional,
+    PeakConstant,
+    PeakJerk,
+    PowerConstant,
+    RootMeanSquare,
+)
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
 from optlaws.synthesis.problem.named_constants import is_named
 from optlaws.verification.enclosing.balls import Extremes, ball, enclosed, rational

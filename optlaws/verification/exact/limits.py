@@ -16,8 +16,7 @@ from typing import NamedTuple
 from optlaws.synthesis.least_time.move_limits import phase
 from optlaws.synthesis.least_time.timed_move import TimedMove
 from optlaws.synthesis.limits.of_problem import limit_of_sum
-from optlaws.synthesis.problem.combined import Combined
-from optlaws.synthesis.problem.constants import Functional
+from optlaws.synthesis.problem.constants import Combined, Functional
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.verification.exact.law import known

@@ -24,16 +24,24 @@ from optlaws.synthesis.families.names import RowName, VariableName
 from optlaws.synthesis.functionals.formula_rows import Branch, split, squared
 from optlaws.synthesis.functionals.formula_rows import sides as formula_sides
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, boxes_of
-from optlaws.synthesis.problem.combined import Combined, CombinedPeak, facing
-from optlaws.synthesis.problem.constants import B, Functional, PeakConstant, PowerConstant, RootMeanSquare
+from optlaws.synthesis.problem.constants import (
+    B,
+    Combined,
+    CombinedPeak,
+    Functional,
+    PeakConstant,
+    PowerConstant,
+    RootMeanSquare,
+    facing,
+)
 from optlaws.synthesis.problem.expression import Expression, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.program.writer import maxima, relaxed_power
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, Certificate
+from optlaws.synthesis.proof.duality import Number, Sublevel
 from optlaws.synthesis.proof.nodes import Contact
-from optlaws.synthesis.proof.sublevel_bounds import Number, Sublevel
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.tolerances import BESIDE_BREAK

@@ -25,8 +25,8 @@ from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.synthesis.proof.duality import Sublevel
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
-from optlaws.synthesis.proof.sublevel_bounds import Sublevel
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 from optlaws.tolerances import BENEATH_ROUNDING, TINY
 

@@ -19,9 +19,9 @@ from optlaws.synthesis.problem.constants import D, PeakConstant
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.synthesis.proof.duality import Sublevel
 from optlaws.synthesis.proof.power import formula_underestimators, shared_energy
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
-from optlaws.synthesis.proof.sublevel_bounds import Sublevel
 from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
 from optlaws.tolerances import AWAY_FROM_REST
 

@@ -21,9 +21,9 @@ from optlaws.synthesis.families.family import ConstraintFamily
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
+from optlaws.synthesis.proof.duality import Sublevel
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
-from optlaws.synthesis.proof.sublevel_bounds import Sublevel
 from optlaws.tolerances import AWAY_FROM_REST
 
 _FLAT_SECANT = 1e-12  # of a range: one that is narrower has the secant of a point
