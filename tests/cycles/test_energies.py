@@ -132,26 +132,20 @@ def test_what_has_no_energy_is_refused(entries: dict[str, Any], error: type[Exce
         indexed(**entries).effort  # noqa: B018 - laws are looked for when they are needed
 
 
-def test_tables_of_results_have_the_torque_of_a_motor() -> None:
-    """A table at the steps of a file: its last columns are those of the drive at these times."""
-    cycle = indexed("modified sine", drive=Drive(LOADED, MOTOR, ratio=20))
-    heading, *rows = [
-        line for line in tables.to_csv(*CycleReport(cycle).motion(13), about="").splitlines() if line and line[0] != "#"
-    ]
+def motion_table(cycle: Cycle, rows: int) -> tuple[str, np.ndarray]:
+    """The heading and the numbers of a table of the motion."""
+    text = tables.to_csv(*CycleReport(cycle).motion(rows), about="")
+    heading, *rest = [line for line in text.splitlines() if line and line[0] != "#"]
+    return heading, np.array([line.split(",") for line in rest], dtype=float)
+
+
+def test_force_and_power_are_in_table_and_picture_and_the_speed_of_a_motor_too() -> None:
+    heading, _ = motion_table(indexed("modified sine", drive=Drive(LOADED, MOTOR, ratio=20)), 13)
     assert heading.endswith('"torque, N m","power, W","motor speed, rpm"')
-    values = np.array([[float(cell) for cell in row.split(",")] for row in rows])
-    times = np.linspace(0.0, 0.6, 13)
-    assert values[:, -3] == pytest.approx(np.asarray(cycle.force(times)), rel=1e-6)
-    assert values[:, -2] == pytest.approx(np.asarray(cycle.power(times)), rel=1e-6, abs=1e-6)
-
-
-def test_a_drive_without_motor_has_force_and_power_in_table_and_picture() -> None:
     cycle = Cycle([Rise("35 mm", "0.1 s", law="345"), Dwell()], period="0.3 s", advance="35 mm", drive={"mass": "2 kg"})
-    heading, *rows = [
-        line for line in tables.to_csv(*CycleReport(cycle).motion(31), about="").splitlines() if line and line[0] != "#"
-    ]
+    heading, values = motion_table(cycle, 31)
     assert heading.endswith('"jerk, m/s³","force, N","power, W"')
-    acceleration, _, force, power = np.array([row.split(",")[-4:] for row in rows], dtype=float).T
+    acceleration, _, force, power = values[:, -4:].T
     assert force == pytest.approx(2.0 * acceleration, rel=1e-6, abs=1e-6)
     assert power == pytest.approx(force * cycle(np.linspace(0.0, 0.3, 31), 1), rel=1e-6, abs=1e-6)
     panels = cycle.plot()[0].figure.axes

@@ -193,15 +193,6 @@ def test_the_usual_law_is_better_by_the_limits_that_it_breaks_or_for_its_degree(
 RISE, RETURN = Rise("35 mm", "120 deg"), Return("35 mm", "100 deg")
 
 
-def test_the_usual_cycle_has_modified_sine_in_its_moves_and_else_the_same_segments() -> None:
-    cycle = Cycle([RISE, Dwell("90 deg"), RETURN, Dwell()], speed="200 rpm", limits={"velocity": "1 m/s"})
-    usual = usual_cycle(cycle)
-    assert usual is not None
-    assert [each.label for each in usual.segments] == [each.label for each in cycle.segments]
-    known = catalogue[USUAL].law.constants.C.value * 0.035 / (cycle.duration * 100.0 / 360.0) ** 2
-    assert usual.peak(2) == pytest.approx(known, rel=1e-12)
-
-
 @pytest.mark.parametrize(
     "segments",
     [

@@ -1,7 +1,6 @@
 """Limits of motions: of both sides, of slowing down, of the snap, and of laws that are given."""
 
 import re
-from collections.abc import Mapping
 from dataclasses import replace
 from math import inf, sqrt
 from typing import Any
@@ -384,15 +383,6 @@ def test_a_slide_beyond_a_limit_is_refused_and_one_that_reaches_it_is_not(kind: 
     refused(slide(law, drive=drive, limits={kind: f"{exact * (1.0 - 1e-6)!r} {unit}"}))
 
 
-@pytest.mark.parametrize("kind", ["torque", "rms torque", "power", "energy", "acceleration"])
-def test_a_table_beyond_a_limit_is_refused(kind: str) -> None:
-    value, unit = values(table())[kind]
-    assert table(limits={kind: f"{1.001 * value!r} {unit}"}).status is Status.OPTIMAL
-    error = refused(table(limits={kind: f"{0.999 * value!r} {unit}"}))
-    assert error.proof[0].value == pytest.approx(value, rel=1e-6)  # type: ignore[index]
-    assert kind in str(error)
-
-
 @pytest.mark.parametrize(
     ("change", "word"),
     [
@@ -493,14 +483,6 @@ def test_a_limit_of_energy_has_no_greatest_speed_that_is_known() -> None:
     limited = slide(drive={"mass": "2 kg"}, limits={"energy": "1 J"})
     with pytest.raises(InputError, match="energy"):
         limited.fastest()
-
-
-def test_a_cycle_that_is_not_refused_has_its_greatest_speed_beyond_its_own() -> None:
-    limits: Mapping[str, str] = {"acceleration": "1 m/s^2", "velocity": "0.01 m/s"}
-    cycle = slide(limits=limits)
-    refused(cycle)
-    assert cycle.fastest().rpm == pytest.approx(20.0 / 7.0, rel=1e-12)
-    assert cycle.fastest().cycle.peak(1) == pytest.approx(0.01, rel=1e-12)
 
 
 @pytest.mark.parametrize("law", FROM_REST)

@@ -29,7 +29,6 @@ from optlaws import (
     smoothstep,
 )
 from tests.documents import ROOT
-from tests.internals.cli import exit_code
 from tests.internals.exports import FORMATS
 from tests.internals.files import reading
 from tests.internals.jobs import read_of_cycle_entries as read
@@ -138,14 +137,6 @@ def test_motion_is_the_law_in_machine_units() -> None:
     assert course.per_angle(60.0, 1) == pytest.approx(course(0.05, 1) * 0.3 / TURN)
 
 
-def test_derivatives_are_those_of_differences() -> None:
-    course = cycle(ConstantVelocity("500 mm/s", "100 deg"), Return())
-    times, step = np.linspace(0.001, 0.295, 40), 1e-6
-    for nu in (1, 2, 3):
-        moved = (course(times + step, nu - 1) - course(times - step, nu - 1)) / (2 * step)
-        assert moved == pytest.approx(course(times, nu), rel=1e-5, abs=1e-5 * course.peak(nu))
-
-
 def test_joints_tell_what_jumps() -> None:
     course = cycle(Rise("35 mm", "120 deg", law="constant acceleration"), Dwell(), Return(duration="100 deg", law=SINE))
     rise, dwell = course.joints[0], course.joints[1]
@@ -187,14 +178,6 @@ def test_the_mass_on_the_cam_moves_as_the_cycle_says() -> None:
 def test_a_mass_law_that_is_too_rough_is_named() -> None:
     with pytest.raises(InputError, match=r"segment 1 \(Rise\): the mass law has"):
         cycle(Rise("30 mm", "120 deg", law=SINE), Return(duration="120 deg"), Dwell()).cam("20 ms")
-
-
-def test_the_command_tells_a_program_what_the_cycle_is(capsys: pytest.CaptureFixture[str]) -> None:
-    assert exit_code(["cycle", str(ROOT / "problems" / "cycle_press.toml"), "--json"]) == 0
-    output = json.loads(capsys.readouterr().out)["slide"]
-    assert output["status"] == "optimal"
-    assert output["lower_bound"] == pytest.approx(output["objective"], rel=1e-9)
-    assert output["segments"][0]["velocity"] <= 0.616 * (1 + 1e-9)
 
 
 def test_a_cycle_is_written_with_the_law_of_a_file_not_with_its_name(
@@ -270,14 +253,6 @@ def test_axes_are_cycles_of_one_clock_by_name() -> None:
     assert MACHINE(0.5, 1)["weld head"] == alone(0.5, 1)
     assert MACHINE.at_angle("0.25 turn")["weld head"] == alone(0.5)
     assert MACHINE.at("60 rpm")["weld head"](0.25) == pytest.approx(alone(0.5))
-
-
-def test_axes_are_kept_as_data_and_as_a_problem_file(tmp_path: Path) -> None:
-    assert Axes.from_json(MACHINE.to_json()).to_dict() == MACHINE.to_dict()
-    file = tmp_path / "machine.toml"
-    file.write_text(MACHINE.to_toml("A machine"), "utf-8")
-    _, cycles = read(reading.toml(file), file)
-    assert {name: cycle(0.45) for name, cycle in cycles.items()} == MACHINE(0.45)
 
 
 def test_axes_are_tabled_drawn_and_exported_together() -> None:
