@@ -58,7 +58,8 @@ def whole(value: Any, name: str, least: int = 0, most: int = MOST_WHOLE) -> int:
     except TypeError:
         number = None
     if number is None or number < least:
-        raise InputError(f"{name} must be an integer of at least {least}, got {shortened(value)}")
+        text = "the text " * isinstance(value, str)
+        raise InputError(f"{name} must be an integer of at least {least}, got {text}{shortened(value)}")
     if number > most:
         raise InputError(f"{name} must be an integer of at most {most}, got {shortened(value)}")
     return number

@@ -120,14 +120,14 @@ def program_heading(motion: PiecewiseMotion, labels: Labels, arithmetics: Sequen
     """Lines that describe a program's function, its peaks, and the bound of its rounding errors."""
     count, plural = len(motion.coefficients), "s" if len(motion.coefficients) > 1 else ""
     interval = f"for x from {motion.start!r} to {motion.stop!r} {labels.master}"
-    peaks = ((name, *motion.extremes(nu), labels.unit(nu)) for nu, name in enumerate(QUANTITIES))
+    peaks = ((name, *motion.extremes(nu), labels.unit(nu), labels.master) for nu, name in enumerate(QUANTITIES))
     lines = [
         f"y(x) in {labels.slave} {interval}: {count} polynomial{plural} of degree {motion.degree}",
         *labels.notes,
         *(
-            f"{name} from {chop(low.value, high.value, VALUE_ROUNDING):.9g} at x = {low.x:.9g} "
-            f"to {chop(high.value, low.value, VALUE_ROUNDING):.9g} at x = {high.x:.9g} {unit}"
-            for name, low, high, unit in peaks
+            f"{name} from {chop(low.value, high.value, VALUE_ROUNDING):.9g} {unit} at x = {low.x:.9g} {of_x} "
+            f"to {chop(high.value, low.value, VALUE_ROUNDING):.9g} {unit} at x = {high.x:.9g} {of_x}"
+            for name, low, high, unit, of_x in peaks
         ),
     ]
     for arithmetic in arithmetics:

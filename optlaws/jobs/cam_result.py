@@ -158,7 +158,7 @@ class CamResult(SoughtCam):
         if not rows:
             return Section(data=data, note=" ".join(notes), digits=DIGITS)
         further = Amount(MICRO * max(off, _KNOWN), "um").on_page(DIGITS)
-        notes.append(f"Each size is proven: it keeps the limits, and a size less than {further} beyond it breaks one.")
+        notes.append(f"Each size is proven: it satisfies the limits, and one beyond it by {further} violates them.")
         table = ReportTable(["what", "size", "unit", "at, deg"], [[r.name, r.value, r.unit, r.place] for r in rows])
         return Section("Sizes", rows, table, data, note=" ".join(notes), digits=DIGITS)
 

@@ -37,7 +37,7 @@ from optlaws import (
 )
 from optlaws.typing import Bound
 from optlaws.verification import exact_bound, verify
-from tests.check_proofs import RESULTS, certificates, run
+from tests.check_proofs import PROGRAM, RESULTS, certificates, node, run
 from tests.documents import ROOT
 from tests.internals.verification import ExactRows
 from tests.verification.tampering import SOLUTIONS, changed, data_of, numbers, places, value_at
@@ -182,6 +182,19 @@ def test_what_it_does_not_know_it_says(tmp_path: Path) -> None:
     results = checked([places["peak_certificate"], json.loads(damped), of_pieces], tmp_path)
     assert [result["verdict"] for result in results] == ["not checked"] * 3
     assert all("does not know" in result["detail"] for result in results)
+
+
+def test_lines_that_differ_in_numbers_alone_are_one(tmp_path: Path) -> None:
+    machine = json.loads((RESULTS / "machine_hanging_load" / "laws.json").read_text(encoding="utf8"))
+    sway = json.dumps(machine["laws"]["least C, sway kept"]["certificate"])
+    file = tmp_path / "damped.json"
+    damped = (sway.replace("spread=0.1", f"damping=(0.1, {share})") for share in (0.2, 0.3, 0.4))
+    file.write_text(json.dumps([*map(json.loads, damped)]), encoding="utf8")
+    shown = subprocess.run([node(), PROGRAM, file], capture_output=True, text=True, check=False)
+    only, counts = shown.stdout.splitlines()
+    assert "[0] and 2 more: not checked: this program does not know" in only
+    assert counts.endswith("0 proven, 0 not proven, 3 not checked")
+    assert shown.returncode == 3
 
 
 def _problems(count: int, seed: int) -> Iterator[Problem]:

@@ -68,10 +68,12 @@ def read_cycle_table(
     columns
         Columns that hold the master and the position, by headings or numbers from 1; behind these the derivatives of
         the position by the master, or, of 12 points or more, by the second.
-    unit, master
-        The units of the positions and of the master: "mm", "deg", "s" and the like, or "0.01 mm" where numbers count
-        these. What the file says unless given, else "mm", and "deg", "turn" or "rad" by the master's length. A master
-        may be an angle, a time or a length.
+    unit
+        That of the positions, such as "mm", or "0.01 mm" where numbers count these. What the file says unless given,
+        else "mm".
+    master
+        That of the master, such as "deg", "s", "mm" or "0.1 deg": an angle, a time or a length. What the file says
+        unless given, else "deg", "turn" or "rad" by its length.
     cam
         Which cam of a file with several: a tag of Logix Designer, a joint of ROS, a heading of a column.
     turn

@@ -5,6 +5,7 @@
 import { readFileSync } from "node:fs";
 import { fileChecked } from "./proof_check.mjs";
 
+const LONGEST = 200; // of a reason
 const plain = process.argv.slice(2).filter((argument) => argument !== "--json");
 const asJson = plain.length + 2 < process.argv.length;
 const ended = new Set(plain.length ? [] : [2]);
@@ -24,7 +25,16 @@ for (const file of plain) {
     console.log(JSON.stringify(results.map((result) => ({ ...result, bound: result.bound?.toNumber() ?? null }))));
     continue;
   }
-  for (const { path, verdict, detail } of results) console.log(`${file}: ${path}: ${verdict}: ${detail}`);
+  const unchecked = new Map(); // reasons that differ in their numbers alone are one
+  for (const { path, verdict, detail } of results) {
+    const reason = detail.replace(/\d[\d.e+-]*/g, "#");
+    if (verdict === "not checked") unchecked.set(reason, [...(unchecked.get(reason) ?? []), { path, detail }]);
+    else console.log(`${file}: ${path}: ${verdict}: ${detail}`);
+  }
+  for (const [{ path, detail }, ...others] of unchecked.values()) {
+    const shown = detail.length > LONGEST ? `${detail.slice(0, LONGEST)}...` : detail;
+    console.log(`${file}: ${path}${others.length ? ` and ${others.length} more` : ""}: not checked: ${shown}`);
+  }
   const counts = ["proven", "not proven", "not checked"].map((word) => `${results.filter(({ verdict }) => verdict === word).length} ${word}`);
   console.log(`${file}: ${counts.join(", ")}`);
 }

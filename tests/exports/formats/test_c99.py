@@ -142,7 +142,7 @@ def test_the_header_says_units_peaks_proof_and_bounds_and_nothing_ends_its_comme
     labels = Labels("s", "mm", ("status optimal, bound 4.41 */ int x; /*", "second\nline"))
     source = header(motion, "press", labels)
     comment, rest = source.split("*/", 1)
-    assert "acceleration from 0 at x = 0 to 21000 at x = 0.1 mm/s^2" in comment
+    assert "acceleration from 0 mm/s^2 at x = 0 s to 21000 mm/s^2 at x = 0.1 s" in comment
     assert "status optimal, bound 4.41 * / int x; / *" in comment
     stated = re.search(r"rounding in REAL, proven, at most: (\S+) mm,", comment)
     assert stated is not None
