@@ -64,7 +64,9 @@ def cam(data: Data) -> Verification:
             if name not in {"about", "unit", "cam", "solutions", _BOUNDING}
         }
         wrong = result.plan.contradiction()
-        detail = wrong or f"they meet its joints and keep its limits, in doubles; status {result.plan.status.value}"
+        # under the limits of the cam, which the laws by themselves do not have
+        status = (result.data.get("laws") or {}).get("status", result.plan.status.value)
+        detail = wrong or f"they meet its joints and keep its limits, in doubles; status {status}"
         claims = [recomputed("the laws of the motion", detail, wrong)]
         for name in getattr(result, "of_laws", ()):  # a barrel states none
             if name == "laws" or result.minimises_over_cycle:

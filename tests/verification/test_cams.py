@@ -139,6 +139,8 @@ def test_the_bound_of_laws_for_an_arm_is_that_of_solutions_in_its_file() -> None
     assert data["best"]["lower_bound"] < data["best"]["objective"] * (1.0 - 1e-6)
     verification = verify(data)
     assert verification.proven
+    [laws] = [claim.detail for claim in verification.recomputed if claim.name == "the laws of the motion"]
+    assert (data["laws"]["status"], laws.rpartition(" ")[2]) == ("local", "local")
     assert {"best.lower_bound", "bounding_solutions[0]", "bounding_solutions[1]"} <= {
         claim.name.split(":")[0] for claim in verification.claims
     }
