@@ -121,6 +121,10 @@ class CamProblemFile(CamOfMotion, title="a cam"):
     spring: SoughtSpring | None = entry(
         ValueOf(SoughtSpring), "The least spring that keeps the follower on the cam.", default=None
     )
+    #: in results of laws that were sought with their least spring, each laws having their own
+    spring_sought: bool = entry(
+        Switch(), "Whether the spring of the drive was sought with the laws.", default=False, shown=False
+    )
     as_made: PeaksAsMade | None = entry(ValueOf(PeaksAsMade), "Peaks as made.", default=None)
     file: tuple[CutFile, ...] = entry(Listed(ValueOf(CutFile), most=50), "Files that cut the cam.", default=())
     animation: bool = entry(Switch(), "Whether animation.svg is written, in which the cam turns.", default=False)

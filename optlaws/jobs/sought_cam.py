@@ -38,7 +38,7 @@ from optlaws.errors import InfeasibleProblem, InputError, located
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.kept import kept_property
 from optlaws.laws.catalogue.catalogue import USUAL
-from optlaws.motion.quantities import MILLI, TURN, Exact, Kind
+from optlaws.motion.quantities import MILLI, TURN, Exact, Kind, quantity
 from optlaws.shown.steps import step
 from optlaws.synthesis.solution import Solution
 
@@ -47,8 +47,8 @@ _SEARCHED = 15  # the degree up to which a search for the bound of a power mostl
 _SPRINGS = 12  # how often laws and the spring that they need are sought in turn, each to four digits
 #: before the names of the files of the return cam
 RETURN = "return-"
-#: what a spring adds to a drive
-_SPRING = {"stiffness", "preload"}
+#: what a spring adds to a drive, with its dimensions
+_SPRING = {"stiffness": ("stiffness", "torsional stiffness"), "preload": ("force", "torque")}
 #: cams whose laws were optimised for them
 OPTIMISED = (BestCam, BestPrimeCircle)
 
@@ -63,7 +63,6 @@ class SoughtCam:
     spec: CamProblemFile
     known: Plan | None = None
     bound: float | None = None
-    counted: bool = False  #: whether the spring of the drive is the least one of these laws
     bounding: tuple[Solution, ...] = ()  #: the solutions whose bounds are those of the laws, unless these are
     circle: Any = None  #: the prime radius of the best laws, where the file gives none, if it is known
 
@@ -74,7 +73,7 @@ class SoughtCam:
         That of the usual law comes first; then that of the laws that are best with the last one, until it is the same.
         Where two springs take turns, one that is as strong as both presses the follower.
         """
-        spec, units = self.spec, SPRING_UNITS[self.spec.cycle.axis][::-1]
+        spec = self.spec
         sought = any(map(is_optimal, spec.cycle.segments)) and kind_of(spec.cycle.minimise)[0].is_driven
         if not sought or not self._needs_spring:
             return self
@@ -86,10 +85,27 @@ class SoughtCam:
             sizes = needed if turns < _SPRINGS // 2 else (max(needed[0], last[0]), max(needed[1], last[1]))
             if sizes == last:
                 break
-            last, texts = sizes, (f"{size:.{DIGITS}g} {unit}" for size, unit in zip(sizes, units, strict=True))
-            drive = {**self._linear_drive, **dict(zip(("stiffness", "preload"), texts, strict=True))}
-            best = pressing = type(self)(replace(spec, motion=replace(spec.motion, drive=drive)), circle=circle)
-        return replace(best, counted=all(each >= 0.99 * size for each, size in zip(needed, last, strict=True)))
+            last, pressing = sizes, type(self)(self.pressed_by(*sizes), circle=circle)
+            best = pressing
+        return best
+
+    def pressed_by(self, *sizes: float) -> CamProblemFile:
+        """The file with a stiffness and a preload, rounded up, of a spring that was sought."""
+        spec, units = self.spec, SPRING_UNITS[self.spec.cycle.axis][::-1]
+        texts = (f"{_rounded_up(size):.{DIGITS}g} {unit}" for size, unit in zip(sizes, units, strict=True))
+        drive = {**self._linear_drive, **dict(zip(_SPRING, texts, strict=True))}
+        return replace(spec, motion=replace(spec.motion, drive=drive), spring_sought=True)
+
+    @kept_property
+    def counted(self) -> bool:
+        """Whether the spring of the drive is the least one of these laws."""
+        if not self.spec.spring_sought:
+            return False
+        spring, drive = self.least_spring, self._linear_drive
+        return all(
+            _rounded_up(getattr(spring, name)) >= 0.99 * quantity(drive[name], dimensions, name)
+            for name, dimensions in _SPRING.items()
+        )
 
     @property
     def with_proof(self) -> Self:
@@ -217,12 +233,20 @@ class SoughtCam:
 
     @kept_property
     def usual(self) -> Self | None:
-        """The cam of the same file with the usual law in its moves; None where it has no other laws."""
+        """The cam of the same file with the usual law in its moves; None where it has no other laws.
+
+        Where the spring of the drive was sought with the laws, the usual law has its own least one.
+        """
         spec, cycle = self.spec, usual_cycle(self.spec.cycle)
         if cycle is None:
             return None
         motion = replace(spec.motion, segment=tuple(cycle.segments), limits={})
-        return type(self)(replace(spec, motion=motion, best="offset" if spec.best == "offset" else None))
+        usual = replace(spec, motion=motion, best="offset" if spec.best == "offset" else None)
+        if not spec.spring_sought:
+            return type(self)(usual)
+        drive = {name: value for name, value in self._linear_drive.items() if name not in _SPRING}
+        bare = type(self)(replace(usual, motion=replace(motion, drive=drive), spring_sought=False))
+        return type(self)(bare.pressed_by(bare.least_spring.stiffness, bare.least_spring.preload))
 
     @kept_property
     def values(self) -> Values:
@@ -263,7 +287,7 @@ class SoughtCam:
     @property
     def _needs_spring(self) -> bool:
         """Whether the drive has no spring of its own, so that the least one presses the follower on the cam."""
-        return self.spec.spring is not None and not self._linear_drive.keys() & _SPRING
+        return self.spec.spring is not None and not self._linear_drive.keys() & _SPRING.keys()
 
     @property
     def _linear_drive(self) -> dict[str, Any]:

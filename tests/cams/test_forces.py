@@ -364,7 +364,7 @@ def test_the_process_of_a_cycle_acts_on_the_cam_as_one_given_beside_it(over: str
     assert own.contact == beside.contact
     assert own.contact.most > CamForces(bare).contact.most + 50.0
     assert own.torque == beside.torque
-    at_speed = {"drive": {"mass": "2 kg"}, "speeds": ("60 rpm", "60 rpm"), "preload": "20 N"}
+    at_speed: dict[str, Any] = {"drive": {"mass": "2 kg"}, "speeds": ("60 rpm", "60 rpm"), "preload": "20 N"}
     assert least_spring(loaded, **at_speed) == least_spring(bare, process=process, **at_speed)
 
 

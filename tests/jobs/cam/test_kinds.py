@@ -425,6 +425,28 @@ def test_laws_of_least_power_count_the_spring_that_they_need(tmp_path: Path, mon
     assert not [claim for each in verify_all(tmp_path / "out" / "cam.json").values() for claim in each.unchecked]
 
 
+def test_the_usual_law_beside_laws_with_their_least_spring_has_its_own(tmp_path: Path) -> None:
+    speeds = '[spring]\nspeeds = ["0 rpm", "220 rpm"]\npreload = "60 N"\n'
+    text = PUMP.replace('0.45 kg", preload = "80 N"', '8 kg"').replace("40 m/s^2", "60 m/s^2") + speeds
+    (tmp_path / "chosen").mkdir()
+    _, reply, _ = done(tmp_path / "chosen", text)
+    values = {each["name"]: (each["usual"], each["chosen"]) for each in reply["usual_law"]["values"]}
+    given = text.replace('best = "laws"\n', "")
+    for kind in ("rise", "return"):
+        given = given.replace(f'kind = "{kind}"', f'kind = "{kind}"\nlaw = "modified sine"')
+    alone = told_of(tmp_path, given.replace(' limits = { acceleration = "60 m/s^2" }', ""))
+    assert reply["spring"]["stiffness"] > 1.03 * alone["spring"]["stiffness"]  # or nothing is seen
+    usual, _ = values["stiffness of the least spring"]
+    assert usual == pytest.approx(alone["spring"]["stiffness"], rel=1e-9)
+    # a spring that is counted has four digits
+    assert values["greatest contact force"][0] == pytest.approx(alone["forces"]["contact"]["most"], rel=1e-3)
+    torque = alone["forces"]["torque"]["most"]
+    assert values["peak torque at the shaft"][0] == pytest.approx(torque, rel=1e-3)
+    assert values["peak power"][0] == pytest.approx(torque * 200.0 * np.pi / 30.0, rel=1e-3)
+    claims = [claim for each in verify_all(tmp_path / "chosen" / "out" / "cam.json").values() for claim in each.claims]
+    assert not [claim for claim in claims if not claim.proven]
+
+
 def test_a_search_for_the_proof_of_a_power_that_is_stopped_leaves_the_quick_bound(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
