@@ -17,9 +17,7 @@ from optlaws.cycles.old_tables.stated_functions import stretches_of_pieces
 from optlaws.cycles.old_tables.stretches import law_of_move, position
 from optlaws.cycles.optimisation import optimal
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
-from optlaws.cycles.optimisation.span_values import size_of
 from optlaws.cycles.report import CycleReport, overload_rows
-from optlaws.cycles.specification.drive import read_drive
 from optlaws.cycles.specification.limits import LIMITS_OF_CYCLE, LIMITS_OF_MOVE
 from optlaws.cycles.specification.load import ElasticFollower
 from optlaws.cycles.usual_law import usual_cycle
@@ -28,7 +26,6 @@ from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.laws.catalogue.tables.columns import LARGEST_TABLE
 from optlaws.laws.catalogue.tables.curve_pieces import hermite
 from optlaws.laws.catalogue.tables.table_points import TablePoints
-from optlaws.motion.quantities import Kind
 from optlaws.synthesis.least_time.timed_move import RATES as OBJECTIVES_OF_MOVES
 
 

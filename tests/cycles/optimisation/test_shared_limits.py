@@ -2,7 +2,6 @@
 
 import math
 import re
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -22,11 +21,9 @@ from optlaws import (
     Return,
     Rise,
     at_most,
-    smoothstep,
     synthesize,
 )
-from tests.internals.cycles import Kind, optimal, read_drive, size_of
-from tests.internals.motion import Piece
+from tests.internals.cycles import optimal
 from tests.sampling import sampled
 
 INERTIA: dict[str, Any] = {"inertia": "0.02 kg m^2"}
@@ -175,19 +172,6 @@ def test_what_is_too_little_is_told_with_what_it_takes() -> None:
     given = [Rise("90 deg", "0.2 s", law="cycloidal"), Dwell("0.3 s"), Return(duration="0.3 s"), Dwell()]
     with pytest.raises(InfeasibleProblem, match=r"what is given takes \d"):
         assert cycle(given, drive=INERTIA, limits={"rms torque": "0.5 N m"}).status
-
-
-def test_peaks_of_pieces_are_in_units_of_the_machine() -> None:
-    rise = Piece(0.0, 0.2, 0.0, 0.03, smoothstep(3))
-    drive = read_drive({"mass": "2 kg"}, "length")
-    constants = smoothstep(3).constants
-    assert size_of(rise, Kind.VELOCITY, drive) == pytest.approx(constants.B.value * 0.03 / 0.2)
-    assert size_of(rise, Kind.ACCELERATION, drive) == pytest.approx(constants.C.value * 0.03 / 0.2**2)
-    assert size_of(rise, Kind.JERK, drive) == pytest.approx(constants.J.value * 0.03 / 0.2**3)
-    assert size_of(rise, Kind.FORCE, drive) == pytest.approx(2.0 * constants.C.value * 0.03 / 0.2**2)
-    assert size_of(rise, Kind.POWER, drive) == pytest.approx(2.0 * constants.D.value * 0.03**2 / 0.2**3)
-    assert size_of(replace(rise, stroke=-0.03), Kind.ACCELERATION, drive) == size_of(rise, Kind.ACCELERATION, drive)
-    assert size_of(replace(rise, stroke=0.0), Kind.ACCELERATION, drive) == 0.0
 
 
 # --- limits at every place ---
