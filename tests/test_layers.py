@@ -99,7 +99,6 @@ SEVERAL = {
 #: what finds a law or a proof: no part of what checks a proof again
 FINDERS = (
     "optlaws.synthesis.method",
-    "optlaws.synthesis.search",
     "optlaws.synthesis.solve",
     "optlaws.synthesis.proof.make",
 )

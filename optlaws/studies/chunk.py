@@ -21,8 +21,7 @@ from optlaws.studies.points import key, keys_along
 from optlaws.studies.specification import entries
 from optlaws.studies.tables import CONSTANTS, StudyPoint
 from optlaws.synthesis import Problem, ProblemArray, Solution, SolutionArray, Status, synthesize
-from optlaws.synthesis.arrays.lines import least_count, lines_of
-from optlaws.synthesis.arrays.powers import least_power
+from optlaws.synthesis.arrays.lines import least_count, least_power, lines_of
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.problem.problem import from_entries
 from optlaws.synthesis.solve import Bound

@@ -19,8 +19,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.studies.specification import Sample, SampleSpan, SteppedRange, StudyFile, constant_of, entries
 from optlaws.synthesis import FUNCTIONALS, Problem
-from optlaws.synthesis.arrays.lines import least_count
-from optlaws.synthesis.arrays.powers import least_power
+from optlaws.synthesis.arrays.lines import least_count, least_power
 from optlaws.synthesis.problem.fields import ConstantBounds
 from optlaws.synthesis.problem.problem import ENTRIES
 

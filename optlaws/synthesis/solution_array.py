@@ -28,7 +28,7 @@ from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.make import certificate, certify
 from optlaws.synthesis.solution import Solution, partly_known
 from optlaws.synthesis.spaces.bases import PolynomialBasis
-from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
+from optlaws.synthesis.spaces.of_basis import PolynomialSpace
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.synthesis.status import Status, measure, status_of

@@ -22,18 +22,25 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array, whole
 from optlaws.shown.steps import Steps
 from optlaws.synthesis.arrays.continuation import StructureSegment, laws_along
-from optlaws.synthesis.arrays.lines import ProblemLine, along_velocities, form_of, least_count, lines_of
-from optlaws.synthesis.arrays.powers import least_power, on_global_branch, with_quick_bounds
+from optlaws.synthesis.arrays.lines import (
+    ProblemLine,
+    along_velocities,
+    form_of,
+    least_count,
+    least_power,
+    lines_of,
+    on_global_branch,
+    with_quick_bounds,
+)
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.no_law import proof_of_no_law
-from optlaws.synthesis.search import LawSearch
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solution_array import SolutionArray, SolvedPart
-from optlaws.synthesis.solve import TIGHT, Bound, check_bound, synthesize
+from optlaws.synthesis.solve import TIGHT, Bound, LawSearch, check_bound, synthesize
 
 ERRORS = ("raise", "return")
 #: the default size of a piece of `synthesize_chunks`

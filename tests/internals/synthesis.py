@@ -1,10 +1,11 @@
 """Internals of `optlaws.synthesis` that tests look at by themselves."""
 
 from optlaws.numerics.exact import not_above, root_rounded_down, rounded_down, rounded_up
-from optlaws.synthesis import search, solve_many
+from optlaws.synthesis import solve as search
+from optlaws.synthesis import solve_many
 from optlaws.synthesis.arrays.continuation import StructureSegment, laws_along
+from optlaws.synthesis.arrays.lines import least_power, on_global_branch
 from optlaws.synthesis.arrays.newton_steps import States, converged, locally_optimal
-from optlaws.synthesis.arrays.powers import least_power, on_global_branch
 from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily, stationary_places
@@ -72,8 +73,7 @@ from optlaws.synthesis.proof.power.formula_underestimators import FormulaRows, a
 from optlaws.synthesis.proof.power.rows import Anchors, PowerRows, rows_of, velocity_brackets
 from optlaws.synthesis.proof.power.search import Region, _points, searched
 from optlaws.synthesis.proof.power.shared_energy import secant_over_inverse, secant_over_root
-from optlaws.synthesis.search import LawSearch, attempt
-from optlaws.synthesis.solve import _neighbours
+from optlaws.synthesis.solve import LawSearch, _neighbours, attempt
 from optlaws.synthesis.solve_many import _together, solved
 from optlaws.synthesis.spaces.bases import basis
 from optlaws.synthesis.spaces.free_pieces import PieceSpace

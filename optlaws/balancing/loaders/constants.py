@@ -25,7 +25,7 @@ from optlaws.synthesis.families.piece_series import PieceSeries, widened
 from optlaws.synthesis.problem.constants import PLAIN, C, Functional, ProblemView
 from optlaws.synthesis.problem.expression import Expression, Term
 from optlaws.synthesis.problem.named_constants import parse
-from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
+from optlaws.synthesis.spaces.of_basis import PolynomialSpace
 
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace

@@ -41,9 +41,8 @@ from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 from optlaws.synthesis.problem.expression import Maximum, maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
-from optlaws.synthesis.search import limit_beside
 from optlaws.synthesis.solution import Solution
-from optlaws.synthesis.solve import synthesize
+from optlaws.synthesis.solve import limit_beside, synthesize
 from optlaws.tolerances import AGREEMENT
 
 if TYPE_CHECKING:

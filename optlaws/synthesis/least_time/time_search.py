@@ -17,8 +17,8 @@ from optlaws.synthesis.least_time.least_time import LeastTime, Multipliers, Time
 from optlaws.synthesis.least_time.timed_move import Timed, TimedMove, TimedT
 from optlaws.synthesis.problem.constants import meant
 from optlaws.synthesis.program.writer import model_of
-from optlaws.synthesis.search import LawSearch, best_available
 from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.solve import LawSearch, best_available
 from optlaws.tolerances import (
     BOUND_FEASIBILITY,
     DURATION_STEP,

@@ -27,7 +27,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.duality import Sublevel
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
-from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
+from optlaws.synthesis.spaces.of_basis import PolynomialSpace
 from optlaws.tolerances import BENEATH_ROUNDING, TINY
 
 #: constants whose bound is one of a derivative's magnitude everywhere

@@ -22,7 +22,7 @@ from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.duality import Sublevel
 from optlaws.synthesis.proof.power import formula_underestimators, shared_energy
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
-from optlaws.synthesis.spaces.polynomial_space import PolynomialSpace
+from optlaws.synthesis.spaces.of_basis import PolynomialSpace
 from optlaws.tolerances import AWAY_FROM_REST
 
 POWER_ROWS = (RowName.POWER, RowName.POWER_FROM_LEAST)
