@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from optlaws.formulas.tree import Formula
 from optlaws.numbers import Array, power_of_two
 from optlaws.synthesis.families.active_set import ActiveSet, Contact
-from optlaws.synthesis.families.family import ConstraintFamily, Points, Program
+from optlaws.synthesis.families.family import Points, Program
 from optlaws.synthesis.families.kinked import AtKinks, FreeKinks, KinkedIntegralFamily, SmoothStretch
 from optlaws.synthesis.method.discretised.on_points import Answer
 from optlaws.tolerances import AT_END, BARRIER, DEPENDENT_ROWS, EXCESS, SAME_PLACE
@@ -343,34 +343,15 @@ def completed(program: Program, state: ActiveSet) -> ActiveSet:
         u, s, residual = family.extremes(state.x)
         for j in np.flatnonzero(residual > EXCESS * max(1.0, abs(family.right_side(state.x)))):
             alike = (better.family == i) & (better.s == s[j])
-            near = alike & (np.abs(better.u - u[j]) < SAME_PLACE)
-            if near.any():
-                if _across_a_jump(family, better.u[near], float(u[j])):
-                    better = better.joined(i, float(u[j]), float(s[j]), free=False)
+            if np.any(alike & (np.abs(better.u - u[j]) < SAME_PLACE)):
                 continue
-            pinned = np.flatnonzero(alike & ~better.free & _nothing_between(better, alike, float(u[j])))
+            pinned = np.flatnonzero(alike & ~better.free)
             if len(pinned):
                 better = better.moved(int(pinned[0]), float(u[j]))
             else:
                 free = bool(family.movable(u[j : j + 1])[0])
                 better = better.joined(i, float(u[j]), float(s[j]), free=free)
     return better
-
-
-def _across_a_jump(family: ConstraintFamily, contacts: Array, u: float) -> bool:
-    """Whether a place and contacts next to it are sides of a break, of which each has a value of its own."""
-    places = np.append(contacts, u)
-    return bool(family.pinned(places).all() and (contacts != u).all())
-
-
-def _nothing_between(state: ActiveSet, alike: NDArray[np.bool_], u: float) -> NDArray[np.bool_]:
-    # the contacts of `alike` that are neighbours of u: no other lies between
-    distance = np.where(alike, np.abs(state.u - u), np.inf)
-    same_side = [
-        bool(alike[i]) and not np.any(alike & ((state.u - u) * (state.u[i] - u) > 0) & (distance < distance[i]))
-        for i in range(len(state.u))
-    ]
-    return np.array(same_side, dtype=np.bool_)
 
 
 _SAME_HEIGHT = 1e-9  # what an extremum's residual may be below that of a point on its hill: rounding of a series
@@ -404,19 +385,9 @@ def identified(program: Program, points: list[Points], answer: Answer) -> Active
         distance = np.where(higher, np.abs(u - grid.u[binding, None]), np.inf)
         weights = answer.multipliers[i][binding]
         gathered = np.bincount(distance.argmin(axis=1), weights, len(u)).astype(np.float64)
-        _merge(family, u, s, gathered)
         movable = family.movable(u)
         contacts += [(i, u[j], s[j], movable[j], gathered[j]) for j in np.flatnonzero(gathered)]
     return ActiveSet.of_contacts(answer.x, contacts, answer.multipliers[-1])
-
-
-def _merge(family: ConstraintFamily, u: Array, s: Array, gathered: Array) -> None:
-    """Give an end what belongs to an extremum that IPOPT's tolerance alone sets apart from it."""
-    for end in np.flatnonzero(np.isin(u, family.domain)):
-        same = (s == s[end]) & (np.abs(u - u[end]) < SAME_PLACE)
-        total = gathered[same].sum()
-        gathered[same] = 0.0
-        gathered[end] = total
 
 
 def _binding(rows: Array, weights: Array, residual: Array) -> NDArray[np.bool_]:
