@@ -143,7 +143,7 @@ def agree(case: Case, gear: Gear) -> None:
     assert cycle.effort.peak_force == pytest.approx(max(sheet.peak_torque, held), rel=1e-9)
 
 
-@pytest.mark.sample(4)
+@pytest.mark.sample(9)
 @pytest.mark.parametrize("name", sorted(catalogue))
 @pytest.mark.parametrize("load", [-3.0, 3.0], ids=["helping", "hindering"])
 def test_every_law_of_the_catalogue_goes_forwards_to_its_very_ends(name: str, load: float) -> None:
