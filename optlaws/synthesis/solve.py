@@ -23,8 +23,7 @@ from optlaws.synthesis.method.exchange import IPOPT, METHODS, ROUNDS, Method, Ou
 from optlaws.synthesis.problem.constants import D, Functional, PeakConstant, warn_of_mixture
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem, differ_in_numbers
-from optlaws.synthesis.program.evaluation import LawEvaluation, evaluate, shortfalls
-from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.synthesis.program.writer import LawEvaluation, Model, evaluate, model_of, shortfalls
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.make import certify
 from optlaws.synthesis.proof.no_law import least_of

@@ -23,8 +23,7 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.evaluation import evaluate, shortfalls
-from optlaws.synthesis.program.writer import model_of
+from optlaws.synthesis.program.writer import evaluate, model_of, shortfalls
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import problem_of, stated
 from optlaws.synthesis.proof.no_law import beyond_limit, proof_of_no_law

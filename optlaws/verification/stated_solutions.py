@@ -19,7 +19,7 @@ from optlaws.numbers import real
 from optlaws.numerics.exact import rounded_down, rounded_up
 from optlaws.synthesis.limits.drive_limits import DriveLimit
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.evaluation import evaluate
+from optlaws.synthesis.program.writer import evaluate
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.splines import PiecewiseBasis

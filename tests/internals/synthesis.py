@@ -60,8 +60,15 @@ from optlaws.synthesis.problem.problem import ENTRIES, PROBLEM
 from optlaws.synthesis.problem.ranges import Bounds, read_bounds
 from optlaws.synthesis.problem.windows import QUANTITIES, read_window
 from optlaws.synthesis.program import writer
-from optlaws.synthesis.program.evaluation import evaluate, shortfalls
-from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model_of, relaxed
+from optlaws.synthesis.program.writer import (
+    Model,
+    evaluate,
+    extreme_velocity,
+    least_violation,
+    model_of,
+    relaxed,
+    shortfalls,
+)
 from optlaws.synthesis.proof import make
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, model_of_leaf
 from optlaws.synthesis.proof.duality import Sublevel, lines_of, row_of, spread, sum_of_rows, summed
@@ -69,8 +76,14 @@ from optlaws.synthesis.proof.infeasible import failure
 from optlaws.synthesis.proof.nodes import PlaceRange
 from optlaws.synthesis.proof.peak_rows import PeakRows
 from optlaws.synthesis.proof.power.box import Box, BoxRows
-from optlaws.synthesis.proof.power.formula_underestimators import FormulaRows, applies
-from optlaws.synthesis.proof.power.rows import Anchors, PowerRows, rows_of, velocity_brackets
+from optlaws.synthesis.proof.power.rows import (
+    Anchors,
+    FormulaRows,
+    PowerRows,
+    applies_to_formulas,
+    rows_of,
+    velocity_brackets,
+)
 from optlaws.synthesis.proof.power.search import Region, _points, searched
 from optlaws.synthesis.proof.power.shared_energy import secant_over_inverse, secant_over_root
 from optlaws.synthesis.solve import LawSearch, _neighbours, attempt

@@ -10,7 +10,7 @@ SEGMENTS = ("tests/contracts/test_segments.py", *LAWS)
 NUMERICS = ("tests/numerics", *LAWS)
 
 TESTS: dict[str, tuple[str, ...]] = {
-    "optlaws.synthesis.program.evaluation": ("tests/synthesis/program/test_evaluation.py",),
+    "optlaws.synthesis.program.writer": ("tests/synthesis/program/test_evaluation.py",),
     "optlaws.numerics.peaks": ("tests/numerics/test_peaks.py", "tests/laws/test_exactness.py"),
     "optlaws.synthesis.proof.certificate": (*BOUNDS, "tests/synthesis/proof/test_peaks.py"),
     "optlaws.synthesis.proof.duality": BOUNDS,

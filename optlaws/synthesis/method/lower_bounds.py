@@ -36,8 +36,7 @@ from optlaws.synthesis.method.newton import polished
 from optlaws.synthesis.problem.constants import B, Functional, RootMeanSquare
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.evaluation import reaches, shortfalls
-from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.synthesis.program.writer import Model, model_of, reaches, shortfalls
 
 _LEAST_STEP = 1e-3  # of a way: a shorter step of a search for a bound is not taken
 

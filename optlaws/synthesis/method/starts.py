@@ -23,8 +23,7 @@ from optlaws.synthesis.functionals.formula_rows import columns_of
 from optlaws.synthesis.method.exchange import Method, solve
 from optlaws.synthesis.problem.constants import PowerConstant
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.evaluation import evaluate
-from optlaws.synthesis.program.writer import Model, least_violation, model_of
+from optlaws.synthesis.program.writer import Model, evaluate, least_violation, model_of
 
 if TYPE_CHECKING:
     from optlaws.synthesis.limits.drive_limits import DriveLimit

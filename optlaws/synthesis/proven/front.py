@@ -21,7 +21,7 @@ from optlaws.numbers import Array, bounded, finite, real
 from optlaws.shown.report import Report, ReportTable
 from optlaws.shown.summary import Row
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.evaluation import evaluate
+from optlaws.synthesis.program.writer import evaluate
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.data import StatedContact, brief_sum_of, contacts_of, problem_of, stated
 from optlaws.synthesis.proof.nodes import Contact

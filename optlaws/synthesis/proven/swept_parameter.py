@@ -25,7 +25,7 @@ from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import named
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
-from optlaws.synthesis.program.evaluation import evaluate
+from optlaws.synthesis.program.writer import evaluate
 from optlaws.synthesis.proof.certificate import Certificate, weighted_rows
 from optlaws.synthesis.proof.duality import bounds_below, charge, sum_of_lines
 from optlaws.synthesis.status import measure

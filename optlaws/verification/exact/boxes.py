@@ -25,9 +25,7 @@ from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, Split, Tightening, closes
-from optlaws.synthesis.proof.power import formula_underestimators
-from optlaws.synthesis.proof.power.formula_underestimators import PEAKS, Way
-from optlaws.synthesis.proof.power.rows import POWER_ROWS, applies
+from optlaws.synthesis.proof.power.rows import PEAKS, POWER_ROWS, Way, applies, applies_to_formulas
 from optlaws.verification.enclosing.balls import BALLS, ball
 from optlaws.verification.exact.law import known
 from optlaws.verification.exact.rows import ExactRows, formula_windows
@@ -185,7 +183,7 @@ def tree_holds(certificate: Certificate) -> bool:
 def _kind(problem: Problem) -> type[BoxSteps] | None:
     if applies(problem):
         return _PowerProof
-    return _FormulaProof if formula_underestimators.applies(problem) else None
+    return _FormulaProof if applies_to_formulas(problem) else None
 
 
 class _PowerProof(BoxSteps):

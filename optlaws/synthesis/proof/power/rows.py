@@ -1,29 +1,234 @@
-"""Rows that every law in a box obeys if its objective is below a claim: |b c| <= D made linear.
+"""Rows that every law in a box obeys if its objective is below a claim: |b c| <= D made linear, and formulas.
 
 A box bounds the velocity at as many places as the laws have coordinates, so it bounds every linear function of the
 law. Where it keeps b from zero, between L and U, the power's bound c <= D/b has a chord: 1/b <= 1/L + 1/U - b/(L U).
+
+In a box the law's derivatives at a place lie between two values each. From the middle of these, and from each of their
+corners, a formula that is not convex is nowhere below its tangent plane less what its second derivatives, enclosed over
+them all, can take away (Taylor's formula with Lagrange's remainder). As a box shrinks that falls with the square of its
+width.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations_with_replacement, product
 from math import inf, isfinite, sqrt
 
 import numpy as np
 
+from optlaws.formulas.convexity import Endpoints, enclosed
+from optlaws.formulas.tree import ORDERS
+from optlaws.kept import kept_property
 from optlaws.numbers import Array
+from optlaws.synthesis.families import names
+from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
 from optlaws.synthesis.families.family import ConstraintFamily, ProductFamily
 from optlaws.synthesis.families.names import RowName
-from optlaws.synthesis.problem.constants import D, PeakConstant
+from optlaws.synthesis.problem.constants import D, Functional, PeakConstant
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.duality import Sublevel
-from optlaws.synthesis.proof.power import formula_underestimators, shared_energy
+from optlaws.synthesis.proof.power import shared_energy
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.spaces.of_basis import PolynomialSpace
-from optlaws.tolerances import AWAY_FROM_REST
+from optlaws.tolerances import AWAY_FROM_REST, BENEATH_ROUNDING, TINY
+
+#: constants whose bound is one of a derivative's magnitude everywhere
+PEAKS = {"b": "B", "c": "C", "j": "J"}
+#: where a plane touches
+Way = tuple[int, ...] | None
+
+_MOST_CORNERS = 8
+
+
+def applies_to_formulas(problem: Problem) -> bool:
+    """Whether boxes bound the problem's formulas: polynomials whose velocities some constant bounds."""
+    model = model_of(problem)
+    known = isinstance(model.space, PolynomialSpace) and model.space.order > 1
+    families = model.program.families
+    # of an integral that is not convex nothing is known in a box
+    if any(isinstance(family, IntegralFamily) and not family.convex for family in families):
+        return False
+    if not known or not any(map(_bent, families)):
+        return False
+    return bool(np.isfinite(_own_sides(model, 1.0)).all()) and "B" in _greatest(model, 1.0)
+
+
+def _own_names(model: Model) -> list[str]:
+    return sorted(model.places, key=model.places.__getitem__)
+
+
+def _bent(family: ConstraintFamily) -> bool:
+    """Whether some sign of a family's rows bounds no convex set."""
+    return isinstance(family, CurvedFamily) and any(sign not in family.tangents for sign in family.signs)
+
+
+def _greatest(model: Model, claim: float) -> dict[str, float]:
+    """Greatest values of the constants in laws below the claim, with a bound of |b|."""
+    sublevel = Sublevel.of(model)
+    bounds = sublevel.greatest_values(claim)
+    bounds["B"] = min(bounds.get("B", inf), sublevel.greatest_velocity(bounds))
+    return {name: bound for name, bound in bounds.items() if isfinite(bound)}
+
+
+def _own_sides(model: Model, claim: float) -> Array:
+    """Least and greatest values of the program's own variables, in their order, a row each."""
+    constants = {leaf.name: leaf for _, leaf in leaves(model.problem.objective) if isinstance(leaf, Functional)}
+    greatest, limits = _greatest(model, claim), model.problem.range("B")
+    sides = []
+    for name in _own_names(model):
+        least = constants[name].floor(model.space.boundary) if name in constants else -inf
+        if name == "B":
+            least = limits.low if limits is not None else 0.0
+        sides.append((least, greatest.get(name, inf)))
+    return np.array(sides, dtype=np.float64).reshape(-1, 2)
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """Tangent planes that underestimate sign times a family's formula, less the curvature allowance."""
+
+    #: family, sign: the rows of a formula
+    family: CurvedFamily
+    sign: float
+    way: Way  #: None for the middle of the ranges; for a corner -1 or 1 by which end of each
+
+    def touching(self, low: Array, high: Array) -> Array:
+        """The derivatives there, from their least and greatest values; shape (names, places) each."""
+        if self.way is None:
+            return np.asarray((low + high) / 2.0)
+        return np.where(np.array(self.way)[:, None] > 0, high, low)
+
+    def taken(self, low: Array, high: Array, k: Array) -> Array:
+        """The greatest curvature term within the ranges, by which the plane is lowered."""
+        taken = np.zeros(k.shape)
+        if self.sign in self.family.tangents:
+            return taken
+        within = {name: Endpoints(*ends) for name, *ends in zip(self.family.names, low, high, strict=True)}
+        within["k"] = Endpoints(k, k)
+        reach = (high - low) / (2.0 if self.way is None else 1.0)
+        for i, j in combinations_with_replacement(range(len(reach)), 2):
+            bend = enclosed(self.family.slopes.second(i, j), within)
+            least, most = (bend.low, bend.high) if self.sign > 0.0 else (-bend.high, -bend.low)
+            if i == j:
+                worst = 0.5 * np.maximum(-least, 0.0)
+            elif self.way is None:
+                worst = np.maximum(np.abs(least), np.abs(most))
+            else:
+                worst = np.maximum(-least if self.way[i] == self.way[j] else most, 0.0)
+            taken = taken + np.where(worst == 0.0, 0.0, worst * reach[i] * reach[j])
+        return taken
+
+
+class FormulaRows(BoxRows):
+    """Rows of a problem with peaks of formulas, where `applies_to_formulas` is true; parameters as for `BoxRows`."""
+
+    def __init__(self, problem: Problem, claim: float, points: Sequence[float]) -> None:
+        super().__init__(problem, claim, points)
+        self.greatest = _greatest(self.model, claim)
+        families = self.model.program.families
+        self.families = [family for family in families if isinstance(family, CurvedFamily)]
+        self._orders = sorted({ORDERS[name] for family in self.families for name in family.names})
+        self._laws = {nu: self.space.derivative(nu, "", np.zeros(self.variables)) for nu in self._orders}
+
+    def root(self) -> Box:
+        low, high = self.brackets_at(self.points)
+        sides = _own_sides(self.model, self.claim)
+        return Box(np.append(low, sides[:, 0]), np.append(high, sides[:, 1]))
+
+    def brackets_at(self, k: Array) -> tuple[Array, Array]:
+        """Least and greatest velocity at the places k: the peak's, and the bounds by C from the ends."""
+        low, high = np.full(k.shape, -self.greatest["B"]), np.full(k.shape, self.greatest["B"])
+        if self.problem.monotone:
+            low = np.maximum(low, 0.0)
+        start = self.space.start_velocity
+        for place, velocity in ((0.0, start), (1.0, start + self.space.velocity_change)):
+            away = np.abs(k - place)
+            reach = np.where(away > 0.0, self.greatest.get("C", inf) * np.maximum(away, TINY), 0.0)
+            low, high = np.maximum(low, velocity - reach), np.minimum(high, velocity + reach)
+        return low, high
+
+    def is_curved(self, family: ConstraintFamily) -> bool:
+        return isinstance(family, CurvedFamily)
+
+    @kept_property
+    def _planes(self) -> dict[tuple[str, float], Plane]:
+        """Planes by the names and the signs of their rows."""
+        planes = {}
+        for family in self.families:
+            ways: list[Way] = [None]
+            if _bent(family) and 2 ** len(family.names) <= _MOST_CORNERS:
+                ways += list(product((-1, 1), repeat=len(family.names)))
+            for (i, way), sign in product(enumerate(ways), family.signs):
+                planes[names.plane(i, family.name), sign] = Plane(family, sign, way)
+        return planes
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of all possible planes."""
+        return tuple(dict.fromkeys(name for name, _ in self._planes))
+
+    def kinds(self, box: Box) -> list[tuple[str, float]]:
+        """The names of all planes with their signs."""
+        del box
+        return list(self._planes)
+
+    def places(self, k: Array) -> Places:
+        """Rows of the derivatives that are in the formulas."""
+        rows = (self.mapped(np.asarray(law.columns(law.u(k))[0])) for law in self._laws.values())
+        return Places(k, tuple(rows))
+
+    def curved(self, box: Box, places: Places, name: str, signs: Array) -> Array:
+        """Planes of a name; zeros outside the formula's part and where it has no value."""
+        rows = dict(zip(self._orders, places.rows, strict=True))
+        curved = np.zeros((len(places.k), self.size + 1))
+        for sign in np.unique(signs).tolist():
+            plane = self._planes.get((name, sign))
+            if plane is None:
+                continue
+            u = plane.family.u(places.k)
+            mine = (signs == sign) & (u >= plane.family.domain[0]) & (u <= plane.family.domain[1])
+            if mine.any():
+                parts = np.stack([rows[ORDERS[part]][mine] for part in plane.family.names])
+                curved[mine] = self._rows(box, plane, places.k[mine], parts)
+        return curved
+
+    def _rows(self, box: Box, plane: Plane, k: Array, parts: Array) -> Array:
+        family, sign = plane.family, plane.sign
+        low, high = self._ranges(box, family.names, parts, k)
+        touch = plane.touching(low, high)
+        with np.errstate(all="ignore"):
+            values = {**dict(zip(family.names, touch, strict=True)), "k": k}
+            value, gradient = family.slopes.value(values), family.slopes.gradient(values)[:-1]
+            row = np.einsum("ip,ipn->pn", sign * gradient, parts)
+            size = np.abs(value) + (np.abs(gradient) * np.maximum(np.abs(low), np.abs(high))).sum(axis=0)
+            row[:, -1] += (
+                sign * (value - (gradient * touch).sum(axis=0)) - plane.taken(low, high, k) - BENEATH_ROUNDING * size
+            )
+            row -= self._room(family)
+        return np.where(np.isfinite(row).all(axis=1)[:, None], row, 0.0)
+
+    def _room(self, family: CurvedFamily) -> Array:
+        row: Array = self.mapped(np.append(family.slack, family.bound)[None])[0]
+        return row
+
+    def _ranges(self, box: Box, parts_of: Sequence[str], parts: Array, k: Array) -> tuple[Array, Array]:
+        """Least and greatest values of the derivatives at the places k of the laws in a box."""
+        lows, highs = [], []
+        for name, rows in zip(parts_of, parts, strict=True):
+            low, high = box.extent(rows)
+            if name == "b":
+                least, most = self.brackets_at(k)
+            else:
+                most = np.full(k.shape, self.greatest.get(PEAKS.get(name, ""), inf))
+                least = -most
+            lows.append(np.maximum(low, least))
+            highs.append(np.minimum(high, most))
+        return np.array(lows), np.array(highs)
+
 
 POWER_ROWS = (RowName.POWER, RowName.POWER_FROM_LEAST)
 
@@ -178,7 +383,7 @@ def _signed_root(square: Array) -> Array:
 _KINDS = (
     (shared_energy.applies, shared_energy.EnergyRows),
     (applies, PowerRows),
-    (formula_underestimators.applies, formula_underestimators.FormulaRows),
+    (applies_to_formulas, FormulaRows),
 )
 
 

@@ -31,7 +31,7 @@ from tests.internals.synthesis import (
     BoxRows,
     FormulaRows,
     _points,
-    applies,
+    applies_to_formulas,
     leaves,
     model_of,
     rows_of,
@@ -229,7 +229,7 @@ def test_power_as_a_formula_has_the_optimum_of_power() -> None:
 @pytest.mark.sample(8)
 @pytest.mark.parametrize("problem", PROBLEMS, ids=repr)
 def test_no_law_in_a_box_is_below_a_plane(problem: Problem) -> None:
-    assert applies(problem)
+    assert applies_to_formulas(problem)
     solution, random = synthesize(problem), np.random.default_rng(3)
     space = model_of(problem).space
     points = np.sort(random.uniform(0.1, 0.5 if space.symmetric else 0.9, space.terms))
