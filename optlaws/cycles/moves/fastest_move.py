@@ -46,7 +46,7 @@ from optlaws.tolerances import SAME_TIME
 #: what the unit of a stroke measures
 AXES = {"m": "length", "rad": "angle"}
 _MORE = 0.1
-_LONGEST, _TIMES = 3.0, 300  # times of a law that leaves a vibration: up to so many times the shortest, and how many
+_LONGEST, _TIMES = 10.0, 630  # times of a law that leaves a vibration: up to so many times the shortest, and how many
 _STEPS = 241  # of a torque, to which those are added that its curve needs
 
 
