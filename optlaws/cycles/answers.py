@@ -50,8 +50,8 @@ T = TypeVar("T")
 PROVEN_BOUND, BOUND_IN_DOUBLES = "proven lower bound", "lower bound in doubles"
 _STRICTER = (
     "The gear has losses and carries a load. Where the motor brakes, the search counts the torque as if all power "
-    "flowed back through the gear, which is never less than the torque itself. The lower bound is proven without this, "
-    "for all laws that never turn back."
+    "flowed back through the gear, which is never less than the torque itself. The lower bound does without this, and "
+    "is that of all laws that never turn back."
 )
 
 

@@ -8,7 +8,7 @@ from math import isfinite
 from typing import Any, NamedTuple
 
 from optlaws.numbers import bounded
-from optlaws.sentences import Amount, Sentence, capital, joined, quantity_name, sentence
+from optlaws.sentences import Amount, Sentence, capital, joined, listed, quantity_name, sentence
 from optlaws.shown.report import ReportTable, Section
 from optlaws.shown.summary import PAGE_UNITS, Row
 
@@ -16,8 +16,10 @@ _REMEDY = ": give them a higher degree"
 _DIGITS = 5
 _SAME = 5e-4  # of a value: a difference below it is no whole tenth of a per cent
 _FAR = 2.0  # times the usual value: what is above is remarked
-#: what limits of cycles and moves bound, as a peak, a root mean square or over the whole
-_LIMITED = {"velocity", "acceleration", "jerk", "snap", "force", "torque", "power", "energy"}
+#: what limits of cycles and moves bound
+_LIMITED = {"velocity", "acceleration", "jerk", "snap", "force", "torque", "power", "energy", "RMS force", "RMS torque"}
+#: a value that one law has and the other has not
+_NONE = "none"
 
 
 class Difference(NamedTuple):
@@ -86,6 +88,9 @@ class Differences:
     ('modified sine has 12.3 % less peak jerk than these laws, but breaks a limit: rise: velocity, 1.2 m/s of 1 m/s',)
     >>> Differences("modified sine", [Difference("jerk", "m/s³", 2630.0, 38293.0)], "energy").remarks
     ('jerk is 14.6 times that of modified sine: limit the jerk to less',)
+    >>> drawn = [Difference(name, "", 1.0, 3.0) for name in ("peak jerk", "rms acceleration", "its greatest force")]
+    >>> Differences("modified sine", drawn, "energy").remarks
+    ('peak jerk is 3 times, RMS acceleration 3 times and its greatest force 3 times that of modified sine: limit ...',)
     >>> times = Difference("least time", "s", 0.2, 0.1), Difference("jerk", "m/s³", 2630.0, 38293.0)
     >>> Differences("modified sine", times, "least time").remarks
     ()
@@ -118,10 +123,11 @@ class Differences:
             elif 1.0 + change > _FAR:
                 far.append(each)
         if far and in_one_time:
-            known = " and ".join(f"{each.name} is {1.0 + (each.change or 0.0):.3g} times" for each in far)
-            names = [each.name.removeprefix("peak ") for each in far if each.name.split()[-1] in _LIMITED]
-            of = " and the ".join(names or ["acceleration", "jerk"])
-            remarks.append(f"{known} that of {self.usual}: limit the {of} to less")
+            times = [(each.name, f"{1.0 + (each.change or 0.0):.3g} times") for each in far]
+            known = listed([" is ".join(times[0]), *map(" ".join, times[1:])])
+            names = [name for each in far if (name := each.name.removeprefix("peak ")) in _LIMITED]
+            of = listed([f"the {name}" for name in names or ["acceleration", "jerk"]])
+            remarks.append(f"{known} that of {self.usual}: limit {of} to less")
         return tuple(remarks)
 
     @property
@@ -142,7 +148,7 @@ class Differences:
     def table(self) -> ReportTable:
         """The quantities with both values and the difference in per cent."""
         shown = map(_in_shown_unit, self.values)
-        rows = [[each.name, each.usual, each.chosen, each.text, each.unit] for each in shown]
+        rows = [[each.name, *_both(each), each.text, each.unit] for each in shown]
         return ReportTable(["what", self.usual, "this law", "difference", "unit"], rows)
 
     @property
@@ -167,6 +173,12 @@ class Differences:
         heading = f"Compared with {self.usual}"
         note = joined("\n\n", (sentence("{}.", capital(remark)) for remark in self.remarks))
         return Section(heading, self.rows, self.table, self.data, note=note, digits=_DIGITS)
+
+
+def _both(each: Difference) -> list[float | str | None]:
+    """Both values as a table has them: where one of the laws has none, that is said."""
+    both = each.usual, each.chosen
+    return list(both) if both == (None, None) else [_NONE if value is None else value for value in both]
 
 
 def _in_shown_unit(each: Difference) -> Difference:
