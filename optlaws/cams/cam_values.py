@@ -26,6 +26,8 @@ Values = dict[str, tuple[float, str]]
 
 #: a pressure angle below it is none
 SMALLEST_ANGLE = 1e-100
+#: of the power of a follower, where that of the shaft is another
+WITHOUT_FRICTION = "without friction at the cam"
 #: units of forces and of stiffness by what the follower's way is
 SPRING_UNITS = {"length": ("N", "N/m"), "angle": ("N m", "N m/rad")}
 
@@ -120,5 +122,5 @@ def objective_name(plan: Plan) -> str:
 
 def objective_value(motion: Cycle | Plan, name: str) -> Values:
     """The value of what was minimised in SI units, of its laws or of others in the same cycle; or nothing."""
-    objective = name.removeprefix("peak ")
+    objective = name.removeprefix("peak ").removesuffix(f" {WITHOUT_FRICTION}")
     return {name: (motion.value(objective), objective_unit(motion.solve(), objective))} if name else {}

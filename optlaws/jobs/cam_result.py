@@ -9,13 +9,14 @@ from math import degrees
 from typing import TYPE_CHECKING, Any, Self
 
 from optlaws.cams.best_laws import BestCam, BestPrimeCircle
-from optlaws.cams.cam_values import SPRING_UNITS, cam_differences, objective_name, objective_value
+from optlaws.cams.cam_values import SPRING_UNITS, WITHOUT_FRICTION, cam_differences, objective_name, objective_value
 from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import BestOffset, LeastPrimeCircle, greatest_roller
 from optlaws.cams.report import DIGITS, CamReport, forces_section, leaves_at
 from optlaws.cams.springs_and_flywheels import CONTACT, GREATEST, EnergyFluctuation, energy_fluctuation
 from optlaws.cycles.cycle import Plan
+from optlaws.cycles.optimisation.objectives import kind_of
 from optlaws.cycles.placed import limits_reached
 from optlaws.cycles.report import objective_unit
 from optlaws.cycles.specification.limits import LimitTaken
@@ -26,13 +27,14 @@ from optlaws.jobs.cam_entries import CamOfMotion, CamProblemFile
 from optlaws.jobs.sought_cam import RETURN, SIZE_MET, SoughtCam
 from optlaws.kept import kept_property
 from optlaws.laws.catalogue.catalogue import USUAL
-from optlaws.motion.quantities import MICRO, MILLI, TURN_DEG
+from optlaws.motion.quantities import MICRO, MILLI, TURN_DEG, Kind
 from optlaws.numbers import chop
 from optlaws.plots.cam import cam_figure, forces_figure, pair_figure
-from optlaws.sentences import Amount, capital, quantity_name
+from optlaws.sentences import Amount, Sentence, capital, quantity_name, sentence
 from optlaws.shown.report import ReportTable, Section
 from optlaws.shown.summary import Row
 from optlaws.studies.problem_entries import steady
+from optlaws.synthesis.status import Status
 from optlaws.tolerances import FORCE_ROUNDING
 
 if TYPE_CHECKING:
@@ -68,14 +70,40 @@ class CamResult(SoughtCam):
             return Section()
         if self.spec.best == "prime circle":
             return cam_differences(USUAL, usual.values, chosen, "prime circle", self._broken_by_usual).section()
-        least = objective_name(self.plan)
+        least = objective_name(self.plan) + f" {WITHOUT_FRICTION}" * self._leaves_friction_out
         both = usual.values | objective_value(usual.plan, least), chosen | objective_value(self.plan, least)
-        return cam_differences(USUAL, *both, least, self._broken_by_usual).section()
+        section = cam_differences(USUAL, *both, least, self._broken_by_usual).section()
+        if "least prime circle" not in chosen or not isinstance(usual.least, str):
+            return section
+        none = capital(f"{USUAL} has no least prime circle: {usual.least}.")
+        return replace(section, note="\n\n".join(filter(None, [section.note, none])))
 
     @kept_property
     def laws(self) -> Section:
         """What is least, with its bound and its status, among which laws it was found, and what is taken of limits."""
-        return replace(laws_section(self.plan, self._best), data=self.of_laws)
+        section = laws_section(self.plan, self._best)
+        note = "\n\n".join(filter(None, [section.note, self._friction_left_out]))
+        return replace(section, note=note, data=self.of_laws)
+
+    @property
+    def _leaves_friction_out(self) -> bool:
+        """Whether the power that is least is another than that of the shaft."""
+        friction = None if self.spec.forces is None else self.spec.forces.friction
+        power = isinstance(self.sought, BestCam) and kind_of(self.plan.minimise)[0] is Kind.POWER
+        return power and friction is not None and bool(friction.contact or friction.guide)
+
+    @property
+    def _friction_left_out(self) -> Sentence | str:
+        """What the least power leaves out, and what to do; blank where it is that of the shaft."""
+        if self.forces is None or not self._leaves_friction_out:
+            return ""
+        taken = Amount(self.forces.torque.peak * self.forces.rate, "W", DIGITS)
+        return sentence(
+            "The power that is least is that which moves the follower: friction at the cam and in the guide has no "
+            "part in it. With this friction the shaft takes up to {}: compare the torque at the shaft with that of "
+            "laws of least force, or of narrower limits of the acceleration.",
+            taken,
+        )
 
     @kept_property
     def of_laws(self) -> dict[str, Any]:
@@ -101,9 +129,12 @@ class CamResult(SoughtCam):
         name, unit = quantity_name(cycle.minimise), objective_unit(cycle)
         if isinstance(best, BestCam):
             free = self.plan if self.plan.of_its_problems() else cycle
+            under, without = "under the limits of the cam", "without them"
+            if self._leaves_friction_out:
+                under, without = (f"{WITHOUT_FRICTION}, {limits} its limits" for limits in ("under", "without"))
             rows = [
-                Row(f"least {name} under the limits of the cam", (best.objective, best.lower_bound), unit),
-                Row(f"least {name} without them", (free.objective, free.lower_bound), unit, note=free.status.value),
+                Row(f"least {name} {under}", (best.objective, best.lower_bound or None), unit),
+                Row(f"least {name} {without}", (free.objective, free.lower_bound), unit, note=free.status.value),
             ]
         elif isinstance(best, BestPrimeCircle):
             of_cycle = self._least_prime_circle(cycle)
@@ -344,7 +375,9 @@ def laws_section(plan: Plan, best: Sequence[Row] = (), allowed: str = "") -> Sec
 def _with_gap(row: Row) -> str:
     """The status of an objective, and by what share its bound is below it where it is not optimal."""
     value, bound = row.value
-    return f"{row.note}, gap {100.0 * (1.0 - bound / value):.2g} %" if bound and row.note == "local" else row.note
+    if row.note != Status.LOCAL.value:
+        return row.note
+    return f"{row.note}, gap {100.0 * (1.0 - bound / value):.2g} %" if bound else f"{row.note}, no bound is known"
 
 
 def _rounded(taken: LimitTaken) -> str:

@@ -144,6 +144,40 @@ def test_the_least_power_is_that_at_the_shaft_under_a_process(tmp_path: Path, *,
     assert shaft * speed > 115.5  # W: 330 N at the mean velocity of 0.35 m/s
 
 
+def test_the_page_says_what_power_is_least_and_what_the_shaft_takes_where_there_is_friction(tmp_path: Path) -> None:
+    text = PUMP.replace("[forces]", "[forces]\nfriction = { contact = 0.06 }")
+    page, reply, _ = done(tmp_path, text)
+    torque = max(abs(reply["forces"]["torque"][side]) for side in ("low", "high"))
+    power = torque * 200.0 * np.pi / 30.0
+    assert reply["best"]["objective"] < 0.9 * power
+    (row,) = re.findall(r"\| least power without friction at the cam, under its limits .*", page)
+    assert f"{reply['best']['objective']:.5g}" in row
+    assert f"With this friction the shaft takes up to {power:.5g} W: compare" in page
+    compared = {each["name"]: each["change"] for each in reply["usual_law"]["values"]}
+    assert next(iter(compared)) == "peak power without friction at the cam"
+
+
+def test_a_bound_of_nothing_is_none(tmp_path: Path) -> None:
+    page, reply, _ = done(tmp_path, PUMP.replace('limits = { acceleration = "40 m/s^2" }', ""))
+    assert reply["best"]["lower_bound"] == 0.0
+    assert re.search(r"\| least power under the limits of the cam \| [\d.]+ +\| +\| W +\| local, no bound is known", page)
+
+
+def test_where_the_usual_law_has_no_least_prime_circle_the_page_says_why(tmp_path: Path) -> None:
+    swung = (
+        LAWS.replace('"translating roller"\nradius = "12 mm"', '"oscillating roller"\nradius = "12 mm"\narm = "114 mm"')
+        .replace('"114 mm"', '"114 mm"\npivot_distance = "146 mm"')
+        .replace('"35 mm"', '"24 deg"')
+        .replace('"50 mm"\npressure_angle = "25 deg"', '"66 mm"\npressure_angle = "35 deg"')
+    )
+    text = swung.replace('"120 deg"', '"75 deg"').replace('"90 deg"', '"190 deg"').replace('"100 deg"', '"80 deg"')
+    page, _, _ = done(tmp_path, text)
+    (row,) = re.findall(r"\| least prime circle +\|([^|]*)\|([^|]*)\|", page)
+    assert row[0].strip() == "none"
+    assert float(row[1]) == pytest.approx(66.0, rel=0.05)
+    assert "Modified sine has no least prime circle: no prime circle keeps a pressure angle of 35 deg" in page
+
+
 def test_the_least_prime_circle_is_that_of_the_library(tmp_path: Path) -> None:
     page, reply, _ = done(tmp_path, BASE)
     assert "of the laws of least acceleration" in page
