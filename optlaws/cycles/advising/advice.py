@@ -421,7 +421,8 @@ def standard_candidates(
     vibrating = None if follower is None else replace(read_follower(follower), of=of)
     dimension = cycle.axis if of == "displacement" else AXES[cycle.axis][2]
     calm = quantity(limited[left], dimension, f"limits: {left}", above=0.0) if limited else inf
-    candidates = Candidates(cycle, minimise or cycle.minimise, vibrating, calm)
+    known = motion.degree if isinstance(motion, Cycle) else None
+    candidates = Candidates(cycle, minimise or cycle.minimise, vibrating, calm, known)
     _check(laws)
     first = [] if candidates.own_law is None else [candidates.own_law]
     candidates.add_standard(list(dict.fromkeys([*first, *laws])))

@@ -204,6 +204,7 @@ class Candidates:
     minimise: str  #: an objective of a cycle, or the residual of the follower
     follower: FollowerResidual | None = None  #: what moves leave vibrating
     calm: float = inf  #: the limit of the residual in SI units
+    given_degree: int | None = None  #: that of the laws of a cycle before the advice; None of a single move
     laws: dict[str, AdvisedLaw] = field(default_factory=dict)
     errors: dict[str, OptlawsError] = field(default_factory=dict)  #: why there is no law of a name
     usual: AdvisedLaw | None = None  #: the standard law that others are compared with; None where none fits

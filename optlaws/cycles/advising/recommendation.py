@@ -75,9 +75,8 @@ def recommended(candidates: Candidates, front: Sequence[AdvisedLaw] = ()) -> Rec
         name: value / usual.values[name] for name, value in law.values.items() if usual.values[name] > 0.0
     }  # fmt: skip
     gain = None if usual is None else 1.0 - changes.get(minimise, 1.0)
-    return Recommendation(
-        law, usual, words.rule, gain, changes, (words.gain, sentence("{}; {}.", words.proof, words.costs))
-    )
+    sentences = words.gain, sentence("{}; {}{}.", words.proof, words.costs, words.degrees)
+    return Recommendation(law, usual, words.rule, gain, changes, sentences)
 
 
 @dataclass(frozen=True)
@@ -155,7 +154,7 @@ class _Words:
             with_no_more = f" with {self.no_more}" if self.no_more else ""
             proven = sentence("Proven: {}{} have at least {}", proof.space, with_no_more, lowest)
         else:
-            proven = sentence("Proven: all laws have at least {}", lowest)
+            proven = sentence("Proven: {} have at least {}", proof.space or "all laws", lowest)
         if proof.best_possible:
             best = self._with_unit(minimise, proof.best_possible)
             proven = sentence("{}, those of any degree at least {}", proven, best)
@@ -171,6 +170,17 @@ class _Words:
         if not changes:
             return f"nothing else differs by 1 % from {usual.name}"
         return f"compared with {usual.name}, the recommended law has {listed(changes)}"
+
+    @property
+    def degrees(self) -> str:
+        """That the law is of another degree than those of the cycle that was given; blank where it is not."""
+        given, searched = self.candidates.given_degree, self.candidates.cycle.degree
+        if given is None or given == searched or self.law.kind != "optimal":
+            return ""
+        return (
+            f"; the laws of this advice have a Z of degree {searched}, those of the cycle as it is given {given}: with "
+            f"degree = {searched} it can have this one"
+        )
 
     @property
     def _exchange(self) -> str:

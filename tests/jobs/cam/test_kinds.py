@@ -160,7 +160,9 @@ def test_the_page_says_what_power_is_least_and_what_the_shaft_takes_where_there_
 def test_a_bound_of_nothing_is_none(tmp_path: Path) -> None:
     page, reply, _ = done(tmp_path, PUMP.replace('limits = { acceleration = "40 m/s^2" }', ""))
     assert reply["best"]["lower_bound"] == 0.0
-    assert re.search(r"\| least power under the limits of the cam \| [\d.]+ +\| +\| W +\| local, no bound is known", page)
+    assert re.search(
+        r"\| least power under the limits of the cam \| [\d.]+ +\| +\| W +\| local, no bound is known", page
+    )
 
 
 def test_where_the_usual_law_has_no_least_prime_circle_the_page_says_why(tmp_path: Path) -> None:
