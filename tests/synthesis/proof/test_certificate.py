@@ -1,11 +1,10 @@
-"""The lower bound: what it says is checked from eq. 8 in exact rational arithmetic, and nothing beats it."""
+"""The lower bound: where its contacts are, that it stands by itself, and that nothing beats it."""
 
 import json
 import subprocess
 import sys
 from collections.abc import Callable
 from dataclasses import replace
-from fractions import Fraction
 from functools import cache
 from typing import Any
 
@@ -30,7 +29,6 @@ from optlaws import (
     synthesize,
 )
 from tests.sampling import examples, sampled
-from tests.synthesis.duality import edge, weak_duality
 from tests.synthesis.independent import acceleration_of, extremes, polynomial, velocity_of, z_of
 
 PLAIN = [
@@ -92,57 +90,6 @@ def proof_of(problem: Problem) -> Certificate:
     proof = caught.value.proof
     assert isinstance(proof, Certificate)
     return proof
-
-
-# --- what the certificate sums, from eq. 8 in rational numbers ---
-
-
-@pytest.mark.sample(3)
-@every_problem
-def test_the_bound_is_the_weak_duality_sum_of_eq_8(problem: Problem) -> None:
-    solution = solution_of(problem)
-    certificate = solution.certificate
-    assert certificate.problem == problem
-    assert certificate.program == ("objective" if problem.convex else "relaxed")
-    bound = weak_duality(certificate)
-    for left, size in bound.laws:
-        assert abs(left) <= Fraction(1, 10**10) * size
-    size = sum((abs(m) for _, m in bound.used), Fraction(1))
-    for name, left in bound.variables.items():
-        assert abs(left) <= Fraction(1, 10**10) * size, name
-    assert certificate.bound == pytest.approx(float(bound.constant), rel=1e-9)
-    assert certificate.bound <= float(bound.constant) * (1 + 1e-12)
-    assert solution.lower_bound == max(
-        certificate.bound, -np.inf if solution.best_possible is None else solution.best_possible
-    )
-    if problem.convex:
-        assert solution.lower_bound == pytest.approx(solution.objective, rel=1e-8)
-        assert certificate.bound == pytest.approx(solution.objective, rel=1e-8)
-
-
-@pytest.mark.sample(6)
-@pytest.mark.parametrize("problem", [p for p in PROBLEMS if p.symmetric and "rms" not in str(p.minimise)], ids=shape)
-def test_with_its_mirror_image_the_sum_speaks_of_unsymmetric_laws_too(problem: Problem) -> None:
-    certificate = solution_of(problem).certificate
-    bound = weak_duality(certificate, mirrored=True)
-    assert len(bound.laws) == polynomial(problem).degree + 1
-    for left, size in bound.laws:
-        assert abs(left) <= Fraction(1, 10**10) * size
-    assert certificate.bound == pytest.approx(float(bound.constant), rel=1e-9)
-
-
-@pytest.mark.sample(6)
-@pytest.mark.parametrize("problem", INFEASIBLE, ids=shape)
-def test_a_proof_of_infeasibility_is_a_contradiction_in_eq_8(problem: Problem) -> None:
-    proof = proof_of(problem)
-    assert proof.proves_infeasible
-    assert proof.bound == -np.inf
-    bound = weak_duality(proof)
-    assert bound.constant > 0
-    for left, size in bound.laws:
-        assert abs(left) <= Fraction(1, 10**10) * size
-    size = sum((abs(m) for _, m in bound.used), Fraction(1))
-    assert all(abs(left) <= Fraction(1, 10**10) * size for left in bound.variables.values())
 
 
 @every_problem
@@ -416,15 +363,14 @@ def test_no_feasible_law_beats_the_bound(problem: Problem, seed: int, symmetric:
 
 def tangent(order: int, step: np.ndarray, *, symmetric: bool) -> np.ndarray:
     """The step without what it changes in b(1/2) and, through Z_0, in c(1/2)."""
-    k, y = Fraction(1, 2), np.polynomial.chebyshev.Chebyshev
-    weight = float(edge(order)(k))
+    k, y = np.polynomial.Polynomial([0.0, 1.0]), np.polynomial.chebyshev.Chebyshev
+    edge = (k * (k - 1.0)) ** order
     z = y(step, domain=(0.0, 1.0))
     step = step.copy()
     step[1] -= z.deriv()(0.5) / 2.0  # b(1/2) = k^l (k-1)^l Z'(1/2)
     if not symmetric:
-        z = y(step, domain=(0.0, 1.0))
-        bend = edge(order).derivative().derivative()
-        step[0] -= (float(bend(k)) * z(0.5) + weight * z.deriv(2)(0.5)) / float(bend(k))
+        z, bend = y(step, domain=(0.0, 1.0)), edge.deriv(2)(0.5)
+        step[0] -= (bend * z(0.5) + edge(0.5) * z.deriv(2)(0.5)) / bend
     return step
 
 
