@@ -460,6 +460,16 @@ def test_a_least_period_needs_no_period_to_begin_from() -> None:
         Axes({"slide": {"segments": angles, "limits": limits}}).fastest()
 
 
+def test_a_least_period_stands_beside_that_of_modified_sine() -> None:
+    slide = {"segments": [Rise("60 mm"), Dwell("0.1 s"), Return(), Dwell(least="0 s")], "limits": LIMITS}
+    best = Axes({"slide": slide}).fastest()
+    [beside] = [row for row in best.summary() if row.name == "least period with modified sine"]
+    sine = catalogue["modified sine"].law.constants
+    times = (sine.C.value * 0.06 / 20.0) ** 0.5, (sine.J.value * 0.06 / 2000.0) ** (1.0 / 3.0)
+    assert beside.value == pytest.approx(2.0 * max(times) + 0.1, rel=1e-7)
+    assert beside.note == f"the least period is {100.0 * (1.0 - best.objective / beside.value):.1f} % less"
+
+
 def test_a_dwell_of_no_time_is_refused_with_what_to_write_of_one_that_only_waits() -> None:
     with pytest.raises(InputError, match=r"above 0, got '0 s': leave .* waits for another axis has least = \"0 s\""):
         Dwell("0 s")
