@@ -88,31 +88,6 @@ def test_an_ode_integrator_runs_the_same_way(one: TorsionLever) -> None:
     assert run.y[1] == pytest.approx(motion.chi(t, 1), abs=2e-11)
 
 
-def test_period_by_quadrature_in_many_digits() -> None:
-    one = LEVERS["softer"]
-    with mpmath.workdps(30):
-        top = mpmath.mpf(one.exact.chi01)
-        energy = mpmath.mpf(float(one.potential(one.exact.chi01)))
-
-        def pace(phase: mpmath.mpf) -> mpmath.mpf:
-            chi = top - one.swing * mpmath.sin(phase / 2) ** 2
-            square = 2 * (energy - mpmath.quad(lambda x: printed_moment(one, x), [0, chi]))
-            return one.swing / 2 * mpmath.sin(phase) / mpmath.sqrt(square)
-
-        # midpoints: the rule is spectral for an even periodic function, and stays off the ends
-        count = 12
-        half = mpmath.pi / count * sum(pace((i + mpmath.mpf(0.5)) * mpmath.pi / count) for i in range(count))
-    assert one.exact.period == pytest.approx(2 * float(half), rel=1e-9)
-
-
-@pytest.mark.parametrize("one", LEVERS.values(), ids=LEVERS)
-def test_energy_is_conserved_along_the_law(one: TorsionLever) -> None:
-    law, half = one.law(), one.exact.period / 2
-    k = np.linspace(0.0, 1.0, 301)
-    energy = 0.5 * (law.b(k) * one.swing / half) ** 2 + one.potential(one.exact.chi01 - one.swing * law.a(k))
-    assert np.ptp(energy) < 1e-13 * energy.max() + 1e-17
-
-
 @pytest.mark.parametrize("one", LEVERS.values(), ids=LEVERS)
 def test_both_laws_start_and_end_at_rest(one: TorsionLever) -> None:
     for motion in (one.exact, one.asymptotic):

@@ -6,7 +6,6 @@ from math import inf, pi, sqrt
 from typing import Any
 
 import casadi as ca
-import mpmath as mp  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -21,7 +20,6 @@ from optlaws import (
     InputError,
     MotionLaw,
     Pieces,
-    PolynomialLaw,
     Problem,
     balanced_law,
     catalogue,
@@ -154,59 +152,6 @@ def test_the_limits_belong_to_motions_that_exist(B: float) -> None:
     stroke = quad(lambda k: sqrt(max(1 - share(k) ** 2, 0.0)), 0.0, 0.5, points=turns, epsabs=1e-12)[0]
     assert B * stroke == pytest.approx(0.5, abs=1e-7)
     assert rate / (2 * swing) == pytest.approx(limit, rel=1e-7)
-
-
-@pytest.mark.long
-def test_least_power_by_ipopt_on_a_grid() -> None:
-    B, order = 1.7, 3
-    base, free = powers(B, order, 4)
-    y, s = ca.SX.sym("y", free.shape[1]), ca.SX.sym("s")
-    h = base + ca.mtimes(ca.DM(free), y)
-    k = (np.arange(600) + 0.5) / 1200
-    b, c = on_grid(h, k, order)
-    size = 0.5 / (ca.sum1(ca.sqrt(B * B - b * b)) / 1200)
-    rows = ca.vertcat(s - size**2 * b * c, s + size**2 * b * c, b, ca.sum1(h))
-    solver = ca.nlpsol(
-        "s",
-        "ipopt",
-        {"x": ca.vertcat(y, s), "f": s, "g": rows},
-        {"ipopt.print_level": 0, "print_time": False, "ipopt.sb": "yes", "ipopt.tol": 1e-10},
-    )
-    start = synthesize(Problem(B=B, order=order, basis=Chebyshev(5), monotone=True)).law
-    h0 = np.linalg.lstsq(on_grid(np.eye(4), k, order)[0], start.b(k), rcond=None)[0]
-    found = solver(x0=np.append(free.T @ (h0 - base), 6.0), lbg=0.0, ubg=inf)
-    least = balanced_law(B, order=order, basis=Chebyshev(5), minimise="D_loader").objective
-    assert float(found["f"]) == pytest.approx(least, rel=2e-5)
-
-
-@pytest.mark.long
-def test_power_of_the_loader_by_mpmath() -> None:
-    """Y² times the greatest b c, from the law's own series, with 30 digits."""
-    law = balanced_law(1.875, order=3, basis=Chebyshev(9), minimise="D_loader").law
-    assert isinstance(law, PolynomialLaw)
-    with mp.workdps(30):
-        c = [mp.mpf(one) for one in law.acceleration]
-        # the integral of T_n over k, but for a constant
-        b = [mp.mpf(0)] * (len(c) + 1)
-        for n, one in enumerate(c):
-            b[n + 1] += one / (4 * (n + 1) if n else 2)
-            if n > 1:
-                b[n - 1] -= one / (4 * (n - 1))
-
-        def at(series: list[Any], k: Any) -> Any:
-            return mp.fsum(one * mp.chebyt(i, 2 * k - 1) for i, one in enumerate(series))
-
-        b[0] -= at(b, mp.mpf(0))
-        B = at(b, mp.mpf(1) / 2)
-        swing = mp.quad(lambda k: mp.sqrt(abs(B**2 - at(b, k) ** 2)), [0, 0.2, 0.35, 0.5], maxdegree=4)
-        places = mp.linspace(0, mp.mpf(1) / 2, 401)
-        power = max(abs(at(b, k) * at(c, k)) for k in places) / (2 * swing) ** 2
-    value = D_loader.value(law)
-    assert float(power) <= value * (1.0 + 1e-9)
-    assert float(power) == pytest.approx(value, rel=1e-4)
-    assert value == pytest.approx(inertial_loader(law).law.power_peak().value, rel=1e-12)
-    k = np.linspace(0.0, 1.0, 40001)
-    assert np.abs(inertial_loader(law).law.d(k)).max() == pytest.approx(value, rel=1e-7)
 
 
 @pytest.mark.parametrize("B", [1.05, 1.2, 1.4, 1.5, 1.875, 2.6])
