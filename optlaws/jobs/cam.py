@@ -82,7 +82,8 @@ def stored(data: Mapping[str, Any]) -> CamResult | BarrelResult:
     plan = spec.cycle.with_solutions(solutions)
     if isinstance(spec, BarrelProblemFile):
         return BarrelResult.of_file(spec, plan)
-    return CamResult(spec, plan, (data.get("best") or {}).get("lower_bound"), bounding=tuple(bounding))
+    bound = (data.get("best") or {}).get("lower_bound")
+    return CamResult(spec, plan, bound, bounding=tuple(bounding), searched=True)
 
 
 class BarrelResult(NamedTuple):

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 
 #: in files the solutions whose bounds are those of laws under limits that are not linear in them
 BOUNDING = "bounding_solutions"
+_BY_RUN = "its bound is computed by optlaws run"
 _KNOWN = 1e-6  # m: what a machine knows of a size
 _STIFFER = 0.5  # per cent: what a spring is stiffer than with the usual law, from which on that is said
 
@@ -136,6 +137,8 @@ class CamResult(SoughtCam):
                 Row(f"least {name} {under}", (best.objective, best.lower_bound or None), unit),
                 Row(f"least {name} {without}", (free.objective, free.lower_bound), unit, note=free.status.value),
             ]
+            if self.bound_is_open:
+                rows = [row._replace(value=(row.value[0], None), note=_BY_RUN) for row in rows]
         elif isinstance(best, BestPrimeCircle):
             of_cycle = self._least_prime_circle(cycle)
             sizes = MILLI * best.least.radius, MILLI * best.lower_bound

@@ -64,6 +64,7 @@ class SoughtCam:
     known: Plan | None = None
     bound: float | None = None
     bounding: tuple[Solution, ...] = ()  #: the solutions whose bounds are those of the laws, unless these are
+    searched: bool = False  #: whether the search for the bound of a power is over, be it found or not
     circle: Any = None  #: the prime radius of the best laws, where the file gives none, if it is known
 
     @property
@@ -113,16 +114,21 @@ class SoughtCam:
 
         The search takes some ten seconds, a few minutes where it fails. Stopped by Ctrl-C, it leaves the cam as it is.
         """
-        cycle, exact = self.spec.cycle, bounds_are_of_all(self.cam.contact, self.spec.limits)
-        power = kind_of(cycle.minimise)[0] is Kind.POWER and cycle.degree <= _SEARCHED
-        if not power or not exact or not isinstance(self.sought, BestCam):
+        if not self.bound_is_open:
             return self
         step("proving that no law takes less power; Ctrl-C leaves the quick bound")
         try:
-            return replace(self, known=with_tight_bounds(self.plan), circle=self.cam.prime_radius)
+            return replace(self, known=with_tight_bounds(self.plan), circle=self.cam.prime_radius, searched=True)
         except KeyboardInterrupt:
             step("the search for a proof was stopped: the bound is the quick one", stays=True)
-            return self
+            return replace(self, searched=True)
+
+    @property
+    def bound_is_open(self) -> bool:
+        """Whether a search that takes some time finds the bound of a power, and has not yet been made."""
+        cycle, exact = self.spec.cycle, bounds_are_of_all(self.cam.contact, self.spec.limits)
+        power = kind_of(cycle.minimise)[0] is Kind.POWER and cycle.degree <= _SEARCHED
+        return power and exact and isinstance(self.sought, BestCam) and not self.searched
 
     @kept_property
     def sought(self) -> BestCam | BestPrimeCircle | BestOffset | LeastPrimeCircle | None:

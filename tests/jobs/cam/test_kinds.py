@@ -483,6 +483,19 @@ def test_the_usual_law_beside_laws_with_their_least_spring_has_its_own(tmp_path:
     assert not [claim for claim in claims if not claim.proven]
 
 
+def test_the_explorer_shows_a_power_of_a_file_and_leaves_its_bound_to_the_command(tmp_path: Path) -> None:
+    numbers = {"stroke": "40mm", "rise": "110deg", "return": "100deg", "speed": "180rpm", "mass": "3 kg"}
+    text = STARTERS["cam"].text(numbers, tmp_path / "cam.toml").replace("animation = true", "")
+    page, reply, _ = done(tmp_path, text.replace("degree = 15", "degree = 7"))
+    (row,) = re.findall(r"\| least power under the limits of the cam .*", page)
+    assert row.endswith("| optimal |")
+    study = reading.toml(tmp_path / "small.toml")
+    facts = cam_view.sizes(CycleRequest(study=study))["facts"]
+    value = f"{reply['best']['objective']:.5g}"
+    assert f"least power under the limits of the cam {value} W: its bound is computed by optlaws run" in facts
+    assert not [fact for fact in facts if "gap" in fact]
+
+
 def test_a_search_for_the_proof_of_a_power_that_is_stopped_leaves_the_quick_bound(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
