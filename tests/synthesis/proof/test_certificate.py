@@ -48,6 +48,7 @@ GENERAL = [
     Problem(order=4, basis=Chebyshev(9), minimise="max(C/4, J/32)"),
     Problem(B=between(1.5, 1.6), inflexion=0.5, order=4, basis=Chebyshev(9)),
     Problem(B=1.7, order=3, basis=Chebyshev(9), J=at_most(60.0)),
+    Problem(B=1.7, order=3, basis=Chebyshev(9), minimise="C/4 + J/128", J=at_most(50.0)),
     Problem(B=1.8, C=at_most(5.0), order=3, basis=Chebyshev(9), minimise="J"),
     Problem(B=2.5, order=3, basis=Chebyshev(9), symmetric=False),
     Problem(B=2.5, order=3, basis=Chebyshev(9), symmetric=False, monotone=True),
@@ -90,6 +91,17 @@ def proof_of(problem: Problem) -> Certificate:
     proof = caught.value.proof
     assert isinstance(proof, Certificate)
     return proof
+
+
+@every_problem
+def test_the_bound_is_the_optimum_where_it_is_convex(problem: Problem) -> None:
+    solution = solution_of(problem)
+    certificate = solution.certificate
+    assert certificate.problem == problem
+    assert certificate.program == ("objective" if problem.convex else "relaxed")
+    assert solution.lower_bound == max(certificate.bound, solution.best_possible or -np.inf)
+    if problem.convex:
+        assert certificate.bound == pytest.approx(solution.objective, rel=1e-8)
 
 
 @every_problem
