@@ -111,14 +111,6 @@ def test_curvature_and_derivatives_are_those_of_the_curves(kind: str, turning: s
     assert np.allclose(cam.radius_of_curvature(inner), cam.profile.radius_of_curvature(inner), rtol=1e-8)
 
 
-def test_an_eccentric_circle_gives_its_motion_and_its_radius() -> None:
-    # s = e (1 - cos theta) under a flat face is a circle of radius r0 + e about a point at e from the centre
-    rise = CamMotion.of_law("simple harmonic", "20 mm", "180 deg")
-    cam, angles = DiscCam(rise, "40 mm", TranslatingFlat()), np.linspace(0.0, np.pi, 50)
-    assert np.allclose(cam.radius_of_curvature(angles), 0.05, atol=1e-15)
-    assert np.allclose(np.abs(points(cam.profile(angles)) + 0.01j), 0.05, atol=1e-15)
-
-
 def test_profile_and_cutter_path_are_parallel_curves() -> None:
     cam = cam_of("oscillating roller")
     cutter, profile = cam.cutter_path("25 mm"), cam.profile

@@ -83,23 +83,6 @@ def test_what_friction_takes_is_the_energy_of_a_turn() -> None:
 
 
 @pytest.mark.parametrize("kind", sorted(FOLLOWERS))
-def test_extremes_are_enclosed_over_the_turn(kind: str) -> None:
-    forces_of_cam = forces(kind, width="20 mm")
-    for found, values in (
-        (forces_of_cam.contact, forces_of_cam.contact_force(ANGLES)),
-        (forces_of_cam.torque, forces_of_cam.shaft_torque(ANGLES)),
-        (forces_of_cam.pressure, forces_of_cam.contact_pressure(ANGLES)),
-    ):
-        assert found.low <= np.min(values)
-        assert np.max(values) <= found.high
-        assert found.most - np.max(values) < 1e-2 * found.peak
-        assert found.high - found.most < 1e-6 * found.peak
-    squares = np.trapezoid(np.asarray(forces_of_cam.shaft_torque(ANGLES)) ** 2, ANGLES) / (2 * pi)
-    assert forces_of_cam.rms_torque[0] == pytest.approx(np.sqrt(squares), rel=1e-3)
-
-
-@pytest.mark.sample(4)
-@pytest.mark.parametrize("kind", sorted(FOLLOWERS))
 def test_extremes_with_friction_are_enclosed_and_near(kind: str) -> None:
     slides = cam_of(kind).displacement.axis == "length"
     friction = {"contact": 0.06} | ({"guide": 0.05, "overhang": "20 mm", "length": "60 mm"} if slides else {})
