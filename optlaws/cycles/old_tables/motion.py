@@ -141,18 +141,18 @@ def _doubtful(
 ) -> list[float]:
     """The middles of rests in noise, also over the end of a turn, which may be the crest of one motion.
 
-    These are the short ones, and those into which a move beside them reaches as far as it may.
+    These are the short ones, and one over the end into which moves reach as far as they may from both sides.
     """
-    reached = [at for move in moves for at in move.ends_at_bounds]
     x, y = samples.places, samples.heights
-    most, over_end = short * float(np.ptp(x)), 0.0
+    over_end, reached, ends = 0.0, False, [at for move in moves for at in move.ends_at_bounds]
     if rests and rests[0].first == 0 and rests[-1].last == len(x) - 1:
         over_end = float(x[rests[0].last] - x[0] + x[-1] - x[rests[-1].first])
-    middles = []
+        reached = all(any(x[half.first] <= at <= x[half.last] for at in ends) for half in (rests[0], rests[-1]))
+    middles, most = list[float](), short * float(np.ptp(x))
     for rest in rests:
-        length = over_end if over_end and rest in (rests[0], rests[-1]) else x[rest.last] - x[rest.first]
-        near = any(x[rest.first] <= at <= x[rest.last] for at in reached)
-        if (length < most or near) and np.ptp(y[rest.first : rest.last + 1]) > 0.0:
+        at_end = over_end > 0.0 and rest in (rests[0], rests[-1])
+        length = over_end if at_end else x[rest.last] - x[rest.first]
+        if (length < most or (at_end and reached)) and np.ptp(y[rest.first : rest.last + 1]) > 0.0:
             middles.append(float(0.5 * (x[rest.first] + x[rest.last])))
     return middles
 
