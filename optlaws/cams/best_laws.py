@@ -22,17 +22,19 @@ from optlaws.cams.least_sizes import CamLimits, LeastPrimeCircle, least_prime_ci
 from optlaws.cams.roller_curvature import RollerCurvature, curvature_of
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.optimisation.objectives import SUMS, kind_of
-from optlaws.cycles.optimisation.optimal import span_problem, with_places
+from optlaws.cycles.optimisation.optimal import span_problem, unlimited, with_places
 from optlaws.cycles.optimisation.span_values import known_drive, size_of
+from optlaws.cycles.specification.limits import Side, amount
 from optlaws.entries.declared import documented_by
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
-from optlaws.motion.piece import Piece
-from optlaws.motion.quantities import TURN, TURN_DEG, Kind
+from optlaws.motion.piece import Piece, factor
+from optlaws.motion.quantities import QUANTITIES, TURN, TURN_DEG, Kind
 from optlaws.numbers import NumberOrQuantity
 from optlaws.sentences import joined, sentence
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import maximum
+from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.solution import Solution
@@ -63,6 +65,8 @@ class CamBound(NamedTuple):
 _WIDER = "make the prime circle larger, the limits wider, or the motion longer"
 
 _ROUNDS = 8
+#: the constants of velocity, acceleration and jerk
+_DERIVATIVES = "BCJ"
 
 
 @dataclass(frozen=True)
@@ -463,15 +467,38 @@ def _best(
     try:
         return synthesize(_problem(problem, windows, ()))
     except InfeasibleProblem as error:
-        where = _from(guide, period)
+        where, remedy = _from(guide, period), _limit_in_the_way(guide, problem, windows, contact) or _WIDER
         if below and not contact.linear:
-            raise SolverFailure(f"no law was found {where} that keeps the limits of the cam: {_WIDER}") from None
+            raise SolverFailure(
+                sentence("no law was found {} that keeps the limits of the cam: {}", where, remedy)
+            ) from None
         raise InfeasibleProblem(
-            f"no law {where} keeps the limits of the cam with those of the motion: {_WIDER}",
+            sentence("no law {} keeps the limits of the cam with those of the motion: {}", where, remedy),
             problem=error.problem,
             tried=with_places(error.tried, guide.start, guide.start + guide.duration, period),
             proof=error.proof,
         ) from None
+
+
+def _limit_in_the_way(guide: Piece, problem: Problem, windows: Sequence[Window], contact: FollowerContact) -> str:
+    """The limit of the motion without which laws keep those of the cam, with what it would have to be, or nothing."""
+    axis = "length" if contact.pivot is None else "angle"
+    for nu, name in enumerate(_DERIVATIVES, 1):
+        limit = problem.range(name)
+        if limit is None:
+            continue
+        others: dict[str, Any] = {each: problem.range(each) for each in CONSTANTS if each != name}
+        bounds = {constant: allowed for constant, allowed in problem.bounds.items() if constant.name != name}
+        free = replace(unlimited(problem), **others, bounds=bounds, minimise=name)
+        try:
+            gentlest = synthesize(_problem(free, windows, ()))
+        except (InfeasibleProblem, SolverFailure):
+            continue
+        size = factor(abs(guide.stroke), guide.duration, nu)
+        allowed, needed = (amount(Side(Kind(nu)), size * each, axis) for each in (limit.high, gentlest.objective))
+        text = "the limit of its {} is {}, and laws are found from {} on: allow more, or {}"
+        return sentence(text, QUANTITIES[nu], allowed, needed, _WIDER)
+    return ""
 
 
 def _problem(problem: Problem, windows: Sequence[Window], objectives: Sequence[Functional]) -> Problem:

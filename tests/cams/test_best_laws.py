@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from math import degrees, sqrt
 from typing import Any
@@ -125,6 +126,24 @@ def test_an_arm_has_laws_and_a_bound_near_them() -> None:
     assert np.degrees(best.cam.extremes.greatest_pressure_angle.high) <= 26.0 + 1e-6
     with pytest.raises(SolverFailure, match=r"no law was found .* make the prime circle larger"):
         best_cam(ROCKER, "65 mm", ARM, pressure_angle="10 deg")
+
+
+def test_where_the_jerk_is_too_little_for_a_cam_a_jerk_that_will_do_is_said() -> None:
+    moves = [Rise("24 deg", "75 deg"), Dwell("190 deg"), Return(duration="80 deg"), Dwell()]
+    arm = OscillatingRoller("0.5 in", arm="4.5 in", pivot_distance="5.75 in")
+    jerk, refused = "6000 rad/s^3", 0
+    while refused < 3:  # the rise, the return, and a rounding
+        cycle = Cycle(moves, speed="90 rpm", limits={"jerk": jerk})
+        try:
+            best = best_cam(cycle, "2.6 in", arm, pressure_angle="35 deg")
+            break
+        except SolverFailure as error:
+            said = re.search(r"limit of its jerk is (.*), and laws are found from ([\d.]+) rad/s\^3 on", str(error))
+            assert said is not None
+            assert said[1] == jerk
+            jerk, refused = f"{np.ceil(float(said[2]))} rad/s^3".replace(".0 ", " "), refused + 1
+    assert refused > 0
+    assert best.cam.extremes.greatest_pressure_angle.high <= np.radians(35.0) * (1.0 + 1e-6)
 
 
 def test_a_curvature_that_no_law_has_at_rest_is_refused_before_any_search(monkeypatch: pytest.MonkeyPatch) -> None:
