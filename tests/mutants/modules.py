@@ -47,7 +47,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "optlaws.shown.steps": ("tests/test_showing.py",),
     "optlaws.verification.result": ("tests/verification/test_reading.py", "tests/verification/test_verify.py"),
     "optlaws.verification.machines.transfer": ("tests/verification/machines",),
-    "optlaws.synthesis.spaces.space": ("tests/synthesis/spaces",),
+    "optlaws.synthesis.spaces.space": ("tests/synthesis/spaces", "tests/contracts/test_families.py"),
     "optlaws.cycles.optimisation.optimal": (
         "tests/cycles/optimisation/test_optimal.py",
         "tests/cycles/optimisation/test_joined.py",
