@@ -249,7 +249,7 @@ class _Exchange:
         """Answers of linear programs that show where integrals have their kinks, each with more places."""
         if not any(isinstance(family, KinkedIntegralFamily) for family in self.program.families):
             return
-        from optlaws.synthesis.method.discretised.kinks import straight_optimum
+        from optlaws.synthesis.method.discretised.quadratic_steps import straight_optimum
 
         for places in _PLACES:
             answer = straight_optimum(self.program, self.points, self.x, places)
