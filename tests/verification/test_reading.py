@@ -99,8 +99,15 @@ def test_the_same_of_python_data() -> None:
     data = data_of(PROBLEM)
     with pytest.raises(InputError, match=r"certificate\.tangent must be a finite number, got inf"):
         verify({**data, "certificate": {**data["certificate"], "tangent": float("inf")}})
+    with pytest.raises(InputError, match="objective must be a finite number"):
+        verify(data | {"objective": "4.6"})
+    with pytest.raises(InputError, match="constants must be"):
+        verify(data | {"constants": 3})
     with pytest.raises(InputError, match="neither a solution"):
         verify({"rows": [data]})
+    for problem in ({}, 1, {"order": 4}):
+        with pytest.raises(InputError):
+            verify({"problem": problem, "law": {}, "certificate": {}})
 
 
 def test_what_has_no_finite_enclosure_is_computed_again_in_doubles(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -112,6 +119,31 @@ def test_what_has_no_finite_enclosure_is_computed_again_in_doubles(monkeypatch: 
     assert {claim.name for claim in verification.recomputed} == {"the objective", "the gap", "optimal"}
     refuted = verify(data | {"objective": 1.01 * data["objective"]})
     assert [claim.name for claim in refuted.claims if not claim.proven] == ["the objective"]
+
+
+def test_the_command_says_what_is_not_proven_of_each_file_once(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    good, bad = tmp_path / "good.json", tmp_path / "bad.json"
+    good.write_text(text_of(PROBLEM), "utf-8")
+    assert verify(good) == verify(str(good)) == verify(data_of(PROBLEM))
+    data = data_of(PROBLEM)
+    data["certificate"]["bound"] += 1e-7
+    bad.write_text(json.dumps(data), "utf-8")
+    assert exit_code(["verify", str(good)]) == 0
+    assert "good.json: proven" in capsys.readouterr().out
+    assert exit_code(["verify", str(good), str(good), "--json"]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert list(said) == [str(good)]
+    assert said[str(good)]["proven"] is True
+    assert exit_code(["verify", str(good), str(bad)]) == 1
+    out, wrong = capsys.readouterr()
+    assert "1 claim is not proven" in wrong
+    unproven = out.split(str(bad))[1]
+    assert unproven.startswith(": not proven\n")
+    assert unproven.count("the certificate's bound") == 1
+    assert exit_code(["verify"]) == 2
+    assert "name at least one file" in capsys.readouterr().err
 
 
 def test_every_solution_of_a_file_is_checked(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
