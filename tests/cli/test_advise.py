@@ -7,6 +7,7 @@ import pytest
 
 from optlaws import Rise, advise
 from tests.internals.cli import app_of_cli as app
+from tests.internals.jobs import STARTERS
 
 Capture = pytest.CaptureFixture[str]
 MOVE = ("--stroke", "35mm", "--duration", "0.1s", "--degree", "9")
@@ -78,6 +79,16 @@ def test_a_cam_is_advised_by_its_own_file_and_by_its_degrees_and_speed(capsys: C
     move = json.loads(out)["recommendation"]
     assert (cam["law"], cam["rule"], cam["sentences"][0]) == (move["law"], move["rule"], move["sentences"][0])
     assert cam["gain"] == pytest.approx(move["gain"], rel=1e-6)
+
+
+def test_advice_of_a_cam_says_what_of_its_file_is_no_part_of_it(capsys: Capture, tmp_path: Path) -> None:
+    numbers = {"stroke": "40mm", "rise": "110deg", "return": "110deg", "speed": "180rpm"}
+    file = tmp_path / "feed.toml"
+    file.write_text(STARTERS["cam"].text(numbers, file), "utf-8")
+    code, out, err = called(capsys, file, "--points", 0, "--degree", 5)
+    assert (code, err) == (0, "")
+    words = "without pressure_angle and radius_of_curvature of the cam: `optlaws run` counts them."
+    assert out.splitlines()[-1] == f"The advice is of the motion by itself, {words}"
 
 
 def test_limits_that_no_law_keeps_end_with_3(capsys: Capture) -> None:

@@ -14,6 +14,7 @@ from optlaws.cli.law_options import LIMITS, one_or_two, read_axes
 from optlaws.cli.options import Signed, Written, given, options, takes
 from optlaws.cli.show import Answer, save
 from optlaws.errors import InputError, Interrupted, located
+from optlaws.sentences import listed
 
 if TYPE_CHECKING:
     from optlaws.cycles.advising.advice import Advice
@@ -84,7 +85,10 @@ def advise(
     if output is not None:
         proofs = {name: each.proofs() for name, each in advice.items()}
         save(output, {"axes": proofs} if file is not None else {"move": proofs[""]})
-    return Answer(lambda: _shown(advice), lambda: _data(advice, alone=file is None), lambda: _drawn(advice), failure)
+    left = "" if file is None else _left_out(file)
+    return Answer(
+        lambda: _shown(advice, left), lambda: _data(advice, alone=file is None), lambda: _drawn(advice), failure
+    )
 
 
 def _data(advice: Mapping[str, Advice], *, alone: bool) -> dict[str, Any]:
@@ -112,9 +116,25 @@ def _of_move(stroke: str | None, duration: str | None, mass: str | None, wishes:
     return optlaws.advise(optlaws.Rise(stroke, duration), drive=drive, **wishes)
 
 
-def _shown(advice: Mapping[str, Advice]) -> Iterable[Any]:
-    """The laws of each axis, the reasons for missing ones, and the recommendation."""
+#: of a cam, what its motion alone does not know
+_OF_CAM = ("pressure_angle", "radius_of_curvature", "spring")
+
+
+def _left_out(file: Path) -> str:
+    """What of the file of a cam is no part of the advice, which is of its motion alone; blank of a cycle."""
+    from optlaws.jobs.job import problem_of_job
+
+    _, entries = problem_of_job(file, "cycle", "cam")
+    left = [name for name in _OF_CAM if name in entries]
+    if entries.get("job") != "cam" or not left:
+        return ""
+    return f"The advice is of the motion by itself, without {listed(left)} of the cam: `optlaws run` counts them."
+
+
+def _shown(advice: Mapping[str, Advice], left_out: str) -> Iterable[Any]:
+    """The laws of each axis, why some are missing, the recommendation, and what of the file is no part of it."""
     for axis, each in advice.items():
         report = each.report()
         yield from ([f"axis {axis}"] if len(advice) > 1 else [])
         yield from (*report.tables, *each.remarks, report.facts)
+    yield from ([left_out] if left_out else [])
