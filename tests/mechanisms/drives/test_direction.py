@@ -26,7 +26,7 @@ from optlaws import (
 )
 from tests.internals.laws import PolynomialSegment, direction_of
 from tests.laws.examples import EXAMPLES, free_function_law
-from tests.sampling import examples
+from tests.sampling import examples, sampled
 
 CELLS = 4000
 #: middles of cells, and places ever nearer to both ends
@@ -143,8 +143,7 @@ def agree(case: Case, gear: Gear) -> None:
     assert cycle.effort.peak_force == pytest.approx(max(sheet.peak_torque, held), rel=1e-9)
 
 
-@pytest.mark.sample(9)
-@pytest.mark.parametrize("name", sorted(catalogue))
+@pytest.mark.parametrize("name", sampled(sorted(catalogue), each=9))
 @pytest.mark.parametrize("load", [-3.0, 3.0], ids=["helping", "hindering"])
 def test_every_law_of_the_catalogue_goes_forwards_to_its_very_ends(name: str, load: float) -> None:
     agree(of_catalogue(name), Gear(0.5, 0.25, 1e-6, load, 0.2, 0.0, 1.0))
