@@ -10,7 +10,6 @@ import tomllib
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -23,11 +22,6 @@ from tests.studies.sweeping import rows, serially
 
 pytestmark = pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="processes are found by Linux's /proc")
 
-SWEPT: dict[str, Any] = {
-    "problem": {"order": 4, "degree": 7},
-    "vary": {"minimise": ["rms_j", "rms_c"], "B": {"from": 1.5, "to": 2.4, "steps": 250}},
-    "chunk": 10,
-}
 FILE = """
 chunk = 10
 [problem]
@@ -38,11 +32,6 @@ minimise = ["rms_j", "rms_c"]
 B = { from = 1.5, to = 2.4, steps = 250 }
 """
 #: lines that are solved as arrays, each in a chunk
-LINES: dict[str, Any] = {
-    "problem": {"order": 4, "degree": 5},
-    "vary": {"minimise": ["C", "D", "J"], "B": {"from": 1.5, "to": 2.4, "steps": 150}},
-    "chunk": 150,
-}
 FILE_OF_LINES = """
 chunk = 150
 [problem]
@@ -153,12 +142,12 @@ def test_killed_within_an_array_it_ends_as_if_nothing_had_been(tmp_path: Path) -
     assert list(disturbed(tmp_path, 2, ["run"], FILE_OF_LINES)) == ["run"]
     study = open_study(tmp_path / "out")
     assert study.counts == {"optimal": 300, "local": 150}
-    assert rows(study) == rows(serially(LINES, tmp_path / "undisturbed"))
+    assert rows(study) == rows(serially(tomllib.loads(FILE_OF_LINES), tmp_path / "undisturbed"))
 
 
 @pytest.mark.long
 def test_killed_twenty_times_it_ends_as_if_nothing_had_been(tmp_path: Path) -> None:
-    undisturbed = rows(serially(SWEPT, tmp_path / "undisturbed"))
+    undisturbed = rows(serially(tomllib.loads(FILE), tmp_path / "undisturbed"))
     victims = ["run", "solver"] * 10
     for seed in range(100):
         folder = tmp_path / str(seed)

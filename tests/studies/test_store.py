@@ -37,14 +37,6 @@ def written(folder: Path, count: int = 4) -> Chunks:
     return chunks
 
 
-def test_what_was_written_is_read(tmp_path: Path) -> None:
-    first = written(tmp_path / "chunks")
-    second = Chunks(tmp_path / "chunks")
-    assert second.done == first.done == {0, 1, 2, 3}
-    assert second.counts == first.counts == {"optimal": 12}
-    assert [row.error for number in range(4) for row in second.rows(number).values()] == ["x" * i for i in range(12)]
-
-
 DAMAGES: dict[str, Callable[[bytes, int, int], bytes]] = {
     "cut": lambda data, place, _: data[:place],
     "changed": lambda data, place, bits: data[:place] + bytes([data[place] ^ bits]) + data[place + 1 :],
@@ -120,11 +112,14 @@ def test_a_torn_record_is_solved_again(small: Study, tmp_path: Path) -> None:
     assert not (tmp_path / "chunks").exists()
 
 
-def test_a_run_killed_between_table_and_chunks_is_finished(small: Study, tmp_path: Path) -> None:
+@pytest.mark.parametrize("damaged", [False, True])
+def test_a_run_killed_between_table_and_chunks_is_finished(small: Study, tmp_path: Path, *, damaged: bool) -> None:
     interrupted(tmp_path, 2)
     shutil.copytree(tmp_path / "chunks", tmp_path / "before")
     serially(SMALL, tmp_path)
     (tmp_path / "before").rename(tmp_path / "chunks")
+    if damaged:
+        (tmp_path / "rows.parquet").write_bytes(b"PAR1")
     assert rows(serially(SMALL, tmp_path)) == rows(small)
     assert not (tmp_path / "chunks").exists()
 
@@ -274,15 +269,6 @@ def test_a_damaged_table_is_refused_by_name(
     table.unlink()
     (out / "rows.sha256").unlink(missing_ok=True)
     assert rows(serially(SMALL, out)) == rows(small)
-
-
-def test_a_damaged_table_is_made_again_from_its_chunks(small: Study, tmp_path: Path) -> None:
-    interrupted(tmp_path, 2)
-    shutil.copytree(tmp_path / "chunks", tmp_path / "before")
-    serially(SMALL, tmp_path)
-    (tmp_path / "before").rename(tmp_path / "chunks")
-    (tmp_path / "rows.parquet").write_bytes(b"PAR1")
-    assert rows(serially(SMALL, tmp_path)) == rows(small)
 
 
 @pytest.mark.parametrize(
