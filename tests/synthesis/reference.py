@@ -1,10 +1,10 @@
-"""Optima found another way: HiGHS or Clarabel on points that are exchanged, a linear system, or SLSQP.
+"""Optima found another way: HiGHS or Clarabel on points that are exchanged, or a linear system.
 
 Nothing here uses optlaws.synthesis beyond Problem and the terms of its objective; laws are numpy series. On points a
 program asks less than everywhere, so its least value is never above the true one; the exchange brings it there.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise, repeat
 from math import inf, isfinite, sqrt
@@ -14,13 +14,12 @@ import clarabel
 import numpy as np
 from numpy.polynomial import Chebyshev, legendre
 from numpy.typing import NDArray
-from scipy.optimize import linprog, minimize
+from scipy.optimize import linprog
 from scipy.sparse import csc_matrix
 
 from optlaws import Functional, Problem
 from optlaws.synthesis import Maximum, Term
 from tests.internals.mechanisms import BandResidual, CamPeak
-from tests.synthesis.independent import DENSE, extremes
 from tests.synthesis.judge import SQUARES, as_range, peak_in_the_middle
 from tests.synthesis.numpy_laws import Laws, Undecided, grid, laws_of
 
@@ -365,99 +364,6 @@ def _series(functions: Sequence[Array], x: Array) -> Chebyshev:
     """The sum of functions on one piece."""
     (columns,) = functions
     return Chebyshev(columns @ x, domain=(0.0, 1.0))
-
-
-def power_of(b: Chebyshev) -> float:
-    """Peak of |b c|."""
-    c = b.deriv()
-    roots = np.real((b * c).deriv().roots())
-    k = np.concatenate([DENSE, roots[(roots > 0.0) & (roots < 1.0)]])
-    return float(np.abs(b(k) * c(k)).max())
-
-
-@dataclass(frozen=True)
-class LocalLaw:
-    """What SLSQP ended at: the law's true peak power, and by how much it breaks b <= B and b >= 0."""
-
-    power: float
-    excess: float
-
-
-def power_by_slsqp(problem: Problem, start: Array, rounds: int = 6) -> LocalLaw:
-    """D over symmetric laws with b(1/2) = B by SLSQP on points that are exchanged."""
-    laws = laws_of(problem)
-    assert problem.symmetric
-    assert isinstance(problem.B, float)
-    b0, c0 = laws.derivative(1), laws.derivative(2)
-    middle = laws.row(1, 0.5)
-    # a particular x, and the directions that leave b(1/2) alone
-    x0 = middle[:-1] * ((problem.B - middle[-1]) / (middle[:-1] @ middle[:-1]))
-    null = np.linalg.svd(middle[None, :-1])[2][1:].T
-    chords, ratios = laws.chord(0.5)[0], laws.ratio(problem.order)
-    points = {name: np.linspace(0.0, 0.5, 60) for name in ("d", "chord", "ratio")}
-    y = np.append(start[: null.shape[1]], 0.0)
-    law = LocalLaw(np.inf, np.inf)
-    for _ in range(rounds):
-
-        def table(functions: Sequence[Array], k: Array) -> tuple[Array, Array]:
-            values = laws.rows(functions, 0, k)
-            return values[:, :-1] @ x0 + values[:, -1], values[:, :-1] @ null
-
-        (vb, mb), (vc, mc) = (table(f, points["d"]) for f in (b0, c0))
-        vq, mq = table(chords, points["chord"])
-        vr, mr = table(ratios, points["ratio"])
-
-        def room(y: Array, vb: Array = vb, mb: Array = mb, vc: Array = vc, mc: Array = mc) -> Array:
-            d = (vb + mb @ y[:-1]) * (vc + mc @ y[:-1])
-            return np.concatenate([y[-1] - d, y[-1] + d])
-
-        def slope(y: Array, vb: Array = vb, mb: Array = mb, vc: Array = vc, mc: Array = mc) -> Array:
-            d = (vb + mb @ y[:-1])[:, None] * mc + (vc + mc @ y[:-1])[:, None] * mb
-            ones = np.ones((len(d), 1))
-            return np.vstack([np.hstack([-d, ones]), np.hstack([d, ones])])
-
-        linear, offset = mq, vq
-        if problem.monotone:
-            linear, offset = np.vstack([mq, mr]), np.concatenate([vq, vr])
-        wide = np.hstack([linear, np.zeros((len(linear), 1))])
-        y[-1] = float(np.abs(room(np.append(y[:-1], 0.0))).max())
-        answer = _slsqp(y, room, slope, wide, offset)
-        y = answer
-        weights = np.append(x0 + null @ y[:-1], 1.0)
-        b = _series(b0, weights)
-        low, high = extremes(b)
-        excess = max(high / problem.B - 1.0, -low if problem.monotone else 0.0)
-        power = power_of(b)
-        law = LocalLaw(power, excess)
-        if excess < 1e-10 and power <= y[-1] * (1.0 + 1e-10):
-            break
-        for name, series in (
-            ("d", b * b.deriv()),
-            ("chord", _series(chords, weights)),
-            ("ratio", _series(ratios, weights)),
-        ):
-            roots = np.real(series.deriv().roots())
-            points[name] = np.concatenate([points[name], roots[(roots > 0.0) & (roots < 0.5)]])
-    return law
-
-
-def _slsqp(
-    start: Array, room: Callable[[Array], Array], slope: Callable[[Array], Array], wide: Array, offset: Array
-) -> Array:
-    goal = np.zeros(len(start))
-    goal[-1] = 1.0
-    solve: Any = minimize
-    curved: Any = {"type": "ineq", "fun": room, "jac": slope}
-    straight: Any = {"type": "ineq", "fun": lambda y: wide @ y + offset, "jac": lambda _: wide}
-    answer = solve(
-        lambda y: float(y[-1]),
-        start,
-        jac=lambda _: goal,
-        constraints=[curved, straight],
-        method="SLSQP",
-        options={"maxiter": 300, "ftol": 1e-14},
-    )
-    return np.asarray(answer.x, dtype=float)
 
 
 def least_power_of_energies(B: float, cells: int = 200_000) -> float:
