@@ -205,6 +205,15 @@ def test_any_number_of_a_problem_may_vary(kind: str) -> None:
     check(laws, np.random.default_rng(7).choice(laws.size, 3, replace=False))
 
 
+@pytest.mark.filterwarnings("ignore::optlaws.NotNormalised")
+def test_laws_with_less_and_less_residual_are_on_one_path_although_each_limit_is_a_unit() -> None:
+    limits = np.linspace(0.2, 0.05, 40)
+    problems = [Problem(B=1.8, order=4, bounds={residual_vibration(frequency=20): at_most(most)}) for most in limits]
+    path = between(problems[0], problems[-1])
+    assert path is not None
+    assert laws_along(path, np.linspace(0.0, 1.0, len(problems))).solved.all()
+
+
 def test_laws_depend_neither_on_their_order_nor_on_their_company() -> None:
     B = np.linspace(*ENDS, COUNT)
     whole = synthesize_array(ProblemArray(B=B, order=4))
