@@ -69,10 +69,10 @@ def read_cycle_table(
         Columns that hold the master and the position, by headings or numbers from 1; behind these the derivatives of
         the position by the master, or, of 12 points or more, by the second.
     unit
-        That of the positions, such as "mm", or "0.01 mm" where numbers count these. What the file says unless given,
+        The unit of positions, such as "mm", or "0.01 mm" where numbers count these. What the file says unless given,
         else "mm".
     master
-        That of the master, such as "deg", "s", "mm" or "0.1 deg": an angle, a time or a length. What the file says
+        The master's unit, such as "deg", "s", "mm" or "0.1 deg": an angle, a time or a length. What the file says
         unless given, else "deg", "turn" or "rad" by its length.
     cam
         Which cam of a file with several: a tag of Logix Designer, a joint of ROS, a heading of a column.
