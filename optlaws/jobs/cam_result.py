@@ -372,7 +372,8 @@ def laws_section(plan: Plan, best: Sequence[Row] = (), allowed: str = "") -> Sec
         rows = [Row(least, (plan.objective, plan.lower_bound), objective_unit(plan), note=plan.status.value)]
     rows = [row._replace(note=_with_gap(row)) for row in rows]
     table = ReportTable.of_pairs(rows, "value", "lower bound", "status") if rows else None
-    return Section("Laws for the cam", rows, table, note="\n\n".join(known), digits=DIGITS)
+    facts = [row._replace(value=row.value[0]) for row in rows]  # the gap says where the bound is
+    return Section("Laws for the cam", facts, table, note="\n\n".join(known), digits=DIGITS)
 
 
 def _with_gap(row: Row) -> str:

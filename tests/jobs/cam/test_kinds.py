@@ -165,15 +165,16 @@ def test_a_bound_of_nothing_is_none(tmp_path: Path) -> None:
     )
 
 
+_ARM = '"oscillating roller"\nradius = "12 mm"\narm = "114 mm"\npivot_distance = "146 mm"'
+SWUNG = (
+    LAWS.replace('"translating roller"\nradius = "12 mm"', _ARM).replace('"35 mm"', '"24 deg"')
+    .replace('"50 mm"\npressure_angle = "25 deg"', '"66 mm"\npressure_angle = "35 deg"')
+    .replace('"120 deg"', '"75 deg"').replace('"90 deg"', '"190 deg"').replace('"100 deg"', '"80 deg"')
+)  # fmt: skip
+
+
 def test_where_the_usual_law_has_no_least_prime_circle_the_page_says_why(tmp_path: Path) -> None:
-    swung = (
-        LAWS.replace('"translating roller"\nradius = "12 mm"', '"oscillating roller"\nradius = "12 mm"\narm = "114 mm"')
-        .replace('"114 mm"', '"114 mm"\npivot_distance = "146 mm"')
-        .replace('"35 mm"', '"24 deg"')
-        .replace('"50 mm"\npressure_angle = "25 deg"', '"66 mm"\npressure_angle = "35 deg"')
-    )
-    text = swung.replace('"120 deg"', '"75 deg"').replace('"90 deg"', '"190 deg"').replace('"100 deg"', '"80 deg"')
-    page, _, _ = done(tmp_path, text)
+    page, _, _ = done(tmp_path, SWUNG)
     (row,) = re.findall(r"\| least prime circle +\|([^|]*)\|([^|]*)\|", page)
     assert row[0].strip() == "none"
     assert float(row[1]) == pytest.approx(66.0, rel=0.05)
@@ -494,6 +495,13 @@ def test_the_explorer_shows_a_power_of_a_file_and_leaves_its_bound_to_the_comman
     value = f"{reply['best']['objective']:.5g}"
     assert f"least power under the limits of the cam {value} W: its bound is computed by optlaws run" in facts
     assert not [fact for fact in facts if "gap" in fact]
+
+
+def test_the_explorer_calls_an_objective_and_its_bound_no_range(tmp_path: Path) -> None:
+    (tmp_path / "small.toml").write_text(SWUNG, "utf-8")
+    facts = cam_view.sizes(CycleRequest(study=reading.toml(tmp_path / "small.toml")))["facts"]
+    (least,) = (fact for fact in facts if fact.startswith("least acceleration under"))
+    assert re.fullmatch(r"least acceleration under the limits of the cam [\d.]+ rad/s²: local, gap [\d.]+ %", least)
 
 
 def test_a_search_for_the_proof_of_a_power_that_is_stopped_leaves_the_quick_bound(
