@@ -8,7 +8,6 @@ from itertools import pairwise
 from math import inf, sqrt
 from typing import Any
 
-import mpmath as mp  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 from hypothesis import given
@@ -78,35 +77,6 @@ def test_an_inertia_without_a_load_has_closed_forms(options: dict[str, object], 
     assert abs(limit.attained - known) <= 2e-6 * known
 
 
-def least_time(P: float, B: float, C: float, count: int = 200_001) -> float:
-    """The time of the fastest motion of the loaded inertia, by passes forward and backward on a grid of sqrt(a)."""
-    a = np.linspace(0.0, 1.0, count) ** 2
-    inertia, slope, load = 1.0 + 0.6 * a**2, 1.2 * a, 3.0 * a
-
-    def passes(sign: float, a: np.ndarray, parts: tuple[np.ndarray, ...]) -> np.ndarray:
-        inertia, slope, load = parts
-        w = np.zeros(count)
-        for i in range(count - 1):
-            c = sign * (sign * P - 0.5 * slope[i] * w[i] - load[i]) / inertia[i]
-            w[i + 1] = min(w[i] + 2.0 * min(c, C) * abs(a[i + 1] - a[i]), B * B)
-        return w
-
-    forward = passes(1.0, a, (inertia, slope, load))
-    back = 1.0 - a
-    turned = passes(-1.0, back, tuple(np.interp(back, a, part) for part in (inertia, slope, load)))
-    w = np.minimum(forward, np.interp(a, back[::-1], turned[::-1]))
-    pace = 2.0 / (np.sqrt(w[1:]) + np.sqrt(w[:-1]))
-    return float(pace @ np.diff(a))
-
-
-@pytest.mark.long
-def test_peak_torque_is_that_of_passes_whose_time_is_the_whole() -> None:
-    P = brentq(lambda P: least_time(P, 2.2, 9.0, 20_001) - 1.0, 3.5, 5.0, xtol=1e-7)
-    limit = drive_limit(LOADED, "peak torque", B=2.2, C=9.0)
-    assert abs(limit.value - P) < 1e-3
-    assert abs(drive_limit(LOADED, "time", B=2.2, C=9.0, P=5.0).value - least_time(5.0, 2.2, 9.0, 20_001)) < 1e-3
-
-
 def test_numbers_of_other_constructions() -> None:
     """By an envelope of passes, and by a series with BFGS, to the digits that they are known to."""
     assert drive_limit(LOADED, "peak torque", B=2.2, C=9.0).value == pytest.approx(4.00818, abs=5e-6)
@@ -137,40 +107,6 @@ def test_the_proven_value_is_the_optimum_to_1e_6_and_a_motion_attains_it(options
     assert 0.0 <= limit.gap < 1e-6
     assert limit.bound == limit.value
     assert DriveLimit.from_json(limit.to_json()) == limit
-
-
-def test_the_bound_of_a_potential_is_the_integral_that_it_claims() -> None:
-    """mpmath's quadrature of the inner minimum, of RMS torque alone: a root of a cubic at every place."""
-    limit = drive_limit(LOADED, "rms torque", B=2.2)
-    edges, rows = limit.edges, limit.potential
-
-    def inner(s: mp.mpf) -> mp.mpf:
-        i = next(i for i in range(len(rows)) if s <= edges[i + 1] or i == len(rows) - 1)
-        degree, length = len(rows[i]) - 1, mp.mpf(edges[i + 1]) - edges[i]
-        x = (s - edges[i]) / length
-        shapes = [mp.binomial(degree, j) * x**j * (1 - x) ** (degree - j) for j in range(degree + 1)]
-        rates = [
-            mp.binomial(degree, j) * (j * x ** (j - 1) * (1 - x) ** (degree - j) if j else 0)
-            - (mp.binomial(degree, j) * (degree - j) * x**j * (1 - x) ** (degree - j - 1) if j < degree else 0)
-            for j in range(degree + 1)
-        ]
-        sine, a = mp.sin(mp.pi * s), mp.sin(mp.pi * s / 2) ** 2
-        price = 2 * mp.fdot(rows[i], shapes) / sine
-        price_by_s = (
-            2 * (mp.fdot(rows[i], rates) / length - mp.pi * mp.cot(mp.pi * s) * mp.fdot(rows[i], shapes)) / sine
-        )
-        rate, unit = price_by_s / (mp.pi / 2 * sine), limit.unit
-        inertia, load = (1 + mp.mpf("0.6") * a**2) / unit, 3 * a / unit
-        square, linear = -rate * inertia / 2, -(price**2) / 4
-        roots = mp.polyroots([-limit.weight, 0, linear, 2 * square], maxsteps=200, extraprec=200, asc=True)
-        b = min(next(mp.re(root) for root in roots if abs(mp.im(root)) < 1e-12 and mp.re(root) > 0), mp.mpf("2.2"))
-        value = price * load + linear * b + square * b**2 + limit.weight / b
-        return value * mp.pi / 2 * sine
-
-    with mp.workdps(20):
-        total = mp.fsum(mp.quad(inner, pair, maxdegree=5) for pair in pairwise(edges))
-        known = limit.unit * mp.sqrt(total - limit.weight)
-    assert 0.0 <= float(known) - limit.value < 1e-6 * limit.value
 
 
 @lru_cache(maxsize=1)
