@@ -21,7 +21,7 @@ from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, co
 from optlaws.synthesis.arrays.programs import Numbers, Path, SolvedBatch
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.method.exchange import solve
-from optlaws.tolerances import AGREEMENT, AT_END, VALUE_ROUNDING
+from optlaws.tolerances import AGREEMENT
 
 _SAME_STATE = 1e-5  # of a segment: states nearer to each other are one of those that others are interpolated between
 _CERTIFIED_GAP = 1e-10  # of an objective: laws of an array whose bound leaves no more are proven
@@ -29,8 +29,6 @@ _ROUGH_STEP = 1e-7  # of a law: a step of more than this share is followed by ot
 
 #: states between which others are interpolated
 _NEAR = 4
-#: contacts that are nearer to each other may be two of one
-_SAME = 0.02
 #: places at once at which it is looked how far a structure holds
 _PROBES = 8
 #: of the places with one structure, every how many are solved in a wave
@@ -155,29 +153,15 @@ def _nearest(segments: list[StructureSegment], t: float) -> ActiveSet | None:
 
 def segment_at(path: Path, t: float, near: ActiveSet | None) -> StructureSegment | None:
     """The structure at one t, as a segment of one law; None where none is proven optimal."""
-    optimum = solve(path.program(t), near).optimum
+    optimum, alone = solve(path.program(t), near).optimum, np.zeros(1, dtype=np.intp)
     if optimum is None:
         return None
-    merged = optimum.merged(_SAME)
-    for candidate in (optimum,) if merged is optimum else (optimum, merged):
-        structure, order = structure_of(path.model, candidate)
-        u = _on_ends(structure, candidate.u[order])
-        state = (candidate.x, u, candidate.multipliers[order], candidate.equality_multipliers)
-        alone, program = np.zeros(1, dtype=np.intp), path.model.program
-        law = SolvedBatch.none(1, program.size, structure.count, len(program.right))
-        _LawsOfStructure(law, path, structure, alone, path.numbers(np.array([t]))).converge(
-            States(*(part[None] for part in state))
-        )
-        if law.solved[0]:
-            return StructureSegment(structure, np.array([t]), _states(law, structure, alone).packed)
-    return None
-
-
-def _on_ends(structure: Structure, u: Array) -> Array:
-    """The places with those that may not move on the ends of their domains, off which rounding may have put them."""
-    ends = structure.domains
-    nearest = np.where(np.abs(u - ends[:, 0]) < np.abs(u - ends[:, 1]), ends[:, 0], ends[:, 1])
-    return np.where(~structure.free & (np.abs(u - nearest) < AT_END), nearest, u)
+    structure, order = structure_of(path.model, optimum)
+    state = (optimum.x, optimum.u[order], optimum.multipliers[order], optimum.equality_multipliers)
+    law = SolvedBatch.none(1, path.model.program.size, structure.count, len(path.model.program.right))
+    of_structure = _LawsOfStructure(law, path, structure, alone, path.numbers(np.array([t])))
+    of_structure.converge(States(*(part[None] for part in state)))
+    return StructureSegment(structure, np.array([t]), _states(law, structure, alone).packed) if law.solved[0] else None
 
 
 def _states(laws: SolvedBatch, structure: Structure, places: Places) -> States:
@@ -211,16 +195,9 @@ def _open_ends(solved: NDArray[np.bool_], place: int) -> tuple[int, int]:
 
 def _last_place(laws: SolvedBatch, path: Path, segment: StructureSegment, t: Array, place: int, end: int) -> int:
     """The last place toward an end up to which laws of a segment are proven; some are entered, and join it."""
-    way, good, tried_beside = (1 if end >= place else -1), place, -1
+    way, good = (1 if end >= place else -1), place
     beyond = end + way
-    while good != end:
-        left = abs(beyond - good) - 1
-        if not left:
-            # a law beyond may have been missed from afar
-            if tried_beside == beyond:
-                break
-            tried_beside, left = beyond, 1
-            beyond += way
+    while left := abs(beyond - good) - 1:
         places = good + way * np.unique(np.geomspace(1, left, _PROBES).round().astype(np.intp))
         some = _LawsOfStructure(laws, path, segment.structure, places, path.numbers(t[places]))
         some.converge(segment.interpolated(t[places]))
@@ -232,8 +209,6 @@ def _last_place(laws: SolvedBatch, path: Path, segment: StructureSegment, t: Arr
             good = int(places[count - 1])
         if count < len(places):
             beyond = int(places[count])
-        elif tried_beside == good:
-            beyond = end + way
     return good
 
 
@@ -299,8 +274,7 @@ class _LawsOfStructure:
         if len(known):
             solved = clipped(self.structure, states.taken(known))
             certification = certification_of(self.path, self.structure, self.numbers.taken(known), solved)
-            moved = np.abs(solved.u - states.u[known]).max(axis=1, initial=0.0)
-            sound = proven(certification) & (moved <= VALUE_ROUNDING)
+            sound = proven(certification)
             values = (certification.objective[sound], certification.bound[sound], certification.excess[sound])
             _put(self.optima, self.structure, self.places[known[sound]], solved.taken(sound), values)
             left[known[sound]] = False
