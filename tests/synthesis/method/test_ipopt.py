@@ -39,6 +39,7 @@ OTHERS = [
     Problem(order=3, minimise="peak(c^2 + 0.1*j*b)"),
     Problem(order=3, minimise="integral(c^4)"),
     Problem(order=3, minimise="J", bounds={"residual(frequency=20)": 0.01}),
+    Problem(order=3, basis=Chebyshev(7), minimise="rms_snap"),
 ]
 
 

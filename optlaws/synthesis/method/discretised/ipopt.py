@@ -24,7 +24,6 @@ from optlaws.synthesis.method.discretised.on_points import Answer
 from optlaws.tolerances import BARRIER, EMPTY_ROW, LEAST_ENERGY
 
 _KINK_RADIUS = 0.003  # of hyperbolas in place of kinks, in units of the problem
-_SMOOTH_NORM = 1e-12  # keeps a norm's slope finite where it vanishes; Newton's method goes without it
 _LEAST_SUM = 1e-24  # under a root in IPOPT's expressions: its slope stays finite
 
 
@@ -49,13 +48,15 @@ def _cone(point: Any, symbols: list[Any], _: Hashable) -> Any:
 
 
 def _norm_numbers(family: NormFamily, _: Points) -> list[Array]:
-    return [family.matrix, family.slack[None]]
+    return [family.matrix, np.append(family.slack, family.bound)[None], np.zeros((1, len(family.slack)))]
 
 
 def _norm(point: Any, symbols: list[Any], _: Hashable) -> Any:
     import casadi as ca
 
-    return ca.sqrt(ca.sumsqr(symbols[0] @ point) + _SMOOTH_NORM)
+    # like a cone's: the root of the squares bends so sharply that IPOPT goes in circles
+    right = symbols[1] @ point
+    return ca.sumsqr(symbols[0] @ point) / right - right
 
 
 def _energy_numbers(family: EnergyFamily, points: Points) -> list[Array]:
@@ -148,7 +149,7 @@ CONES = RowKind(ConeFamily, _cone_numbers, _cone, bounded=False, share=2.0)
 KINDS = (
     RowKind(ProductFamily, _product_numbers, _product),
     CONES,
-    RowKind(NormFamily, _norm_numbers, _norm),
+    RowKind(NormFamily, _norm_numbers, _norm, bounded=False, share=2.0),
     RowKind(EnergyFamily, _energy_numbers, _energy, _energy_detail),
     RowKind(FormulaFamily, _formula_numbers, _formula, _formula_detail),
 )
