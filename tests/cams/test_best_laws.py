@@ -102,7 +102,7 @@ def test_the_least_prime_circle_of_all_laws_meets_its_bound() -> None:
     with pytest.raises(InfeasibleProblem, match="make the prime circle larger") as refused:
         best_cam(PRESS, f"{0.999 * best.least.radius!r} m", roller, pressure_angle="30 deg")
     assert refused.value.proof is not None
-    assert "Window" not in str(refused.value)
+    assert "Window" not in str(refused.value).splitlines()[0]  # the problem stands below it
 
 
 def test_a_flat_face_keeps_its_radius_by_a_law_made_for_it() -> None:

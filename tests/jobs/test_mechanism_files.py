@@ -310,7 +310,7 @@ def test_pages_and_tables_say_what_the_motor_needs(tmp_path: Path, capsys: pytes
     # torque times speed is power
     assert all(t * n * 3.141592653589793 / 30.0 == pytest.approx(p, rel=1e-6, abs=1e-6) for t, p, n in values)
     page = (tmp_path / "out" / "cycle.md").read_text("utf-8")
-    assert "| peak torque, used | 122.860106 | % | too weak |" in " ".join(page.split())
+    assert "| peak torque, used | 122.86 | % | too weak |" in " ".join(page.split())
     picture = (tmp_path / "out" / "table_motor.svg").read_text("utf-8")
     assert "<!-- continuous torque, 74.5 % used -->" in picture
     assert "<!-- speed of the motor, rpm -->" in picture
