@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, replace
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from warnings import warn
@@ -380,25 +380,12 @@ class Overlap(AxesAnswers, Declared, title="axes that overlap"):
         """
         if self.goal != "period" or not self.dwells:
             return None
-        try:
-            of_laws, unknowns, _ = self.given.instants.without_dwells(self.dwells).shortest()
-        except (InfeasibleProblem, InputError, SolverFailure):
-            return None
-        return of_laws.unit * float(unknowns[-2])
+        return _least_period(lambda: self.given.instants.without_dwells(self.dwells))
 
     @kept_property
-    def _with_usual_law(self) -> float | None:
+    def _usual_period(self) -> float | None:
         """The least period in seconds of the usual law in all moves that may have another; None where it has none."""
-        try:
-            moves = {
-                name: [with_law(USUAL, each) if may_have_another_law(each) else each for each in cycle.segments]
-                for name, cycle in self.given.items()
-            }
-            cycles = {name: with_laws(cycle, moves[name]) for name, cycle in self.given.items()}
-            of_laws, unknowns, _ = Axes(cycles, interlocks=self.given.rules).instants.shortest()
-        except (InfeasibleProblem, InputError, SolverFailure):
-            return None
-        return of_laws.unit * float(unknowns[-2])
+        return _least_period(lambda: _with_usual_law(self.given).instants)
 
     def summary(self) -> Summary:
         """Status, objective and bound, the gain, also over the usual law, and what binds."""
@@ -414,7 +401,7 @@ class Overlap(AxesAnswers, Declared, title="axes that overlap"):
         if self.without_dwells is not None:
             may = 'of dwells that may be shorter give least = "0 s"'
             rows.append(Row("least period without these dwells", self.without_dwells, unit, note=may))
-        usual = self._with_usual_law if self.goal == "period" else None
+        usual = self._usual_period if self.goal == "period" else None
         if usual is not None and abs(saved := 1.0 - self.objective / usual) > CYCLE_OPTIMALITY:
             note = f"the least period is {100.0 * abs(saved):.1f} % {'less' if saved > 0.0 else 'more'}"
             rows.append(Row(f"least period with {USUAL}", usual, unit, note=note))
@@ -518,6 +505,24 @@ def _overlapped(given: Axes, goal: Goal, longer: Sequence[str]) -> Overlap:
         goal=goal, objective=value, lower_bound=bound, of=tuple(longer), binding=(), axes=axes, given=given
     )
     return replace(overlap, binding=overlap.bound_by())
+
+
+def _with_usual_law(given: Axes) -> Axes:
+    """The machine with the usual law in all moves that may have another one."""
+    moves = {
+        name: [with_law(USUAL, each) if may_have_another_law(each) else each for each in cycle.segments]
+        for name, cycle in given.items()
+    }
+    return Axes({name: with_laws(cycle, moves[name]) for name, cycle in given.items()}, interlocks=given.rules)
+
+
+def _least_period(instants: Callable[[], Overlapping]) -> float | None:
+    """The least period in seconds of a program of instants; None where it cannot be made or has none."""
+    try:
+        of_laws, unknowns, _ = instants().shortest()
+    except (InfeasibleProblem, InputError, SolverFailure):
+        return None
+    return of_laws.unit * float(unknowns[-2])
 
 
 def _retimed(cycle: Cycle, moves: Iterable[tuple[float, Any]], period: float) -> Cycle:
