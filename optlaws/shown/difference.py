@@ -176,7 +176,7 @@ class Differences:
 
 
 def _both(each: Difference) -> list[float | str | None]:
-    """Both values as a table has them: where one of the laws has none, that is said."""
+    """Both values as a table has them: where one of the laws has none, the cell says so."""
     both = each.usual, each.chosen
     return list(both) if both == (None, None) else [_NONE if value is None else value for value in both]
 

@@ -138,10 +138,10 @@ def test_where_the_jerk_is_too_little_for_a_cam_a_jerk_that_will_do_is_said() ->
             best = best_cam(cycle, "2.6 in", arm, pressure_angle="35 deg")
             break
         except SolverFailure as error:
-            said = re.search(r"limit of its jerk is (.*), and laws are found from ([\d.]+) rad/s\^3 on", str(error))
-            assert said is not None
-            assert said[1] == jerk
-            jerk, refused = f"{np.ceil(float(said[2]))} rad/s^3".replace(".0 ", " "), refused + 1
+            stated = re.search(r"limit of its jerk is (.*), and laws are found from ([\d.]+) rad/s\^3 on", str(error))
+            assert stated is not None
+            assert stated[1] == jerk
+            jerk, refused = f"{np.ceil(float(stated[2]))} rad/s^3".replace(".0 ", " "), refused + 1
     assert refused > 0
     assert best.cam.extremes.greatest_pressure_angle.high <= np.radians(35.0) * (1.0 + 1e-6)
 

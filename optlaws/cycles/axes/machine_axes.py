@@ -517,7 +517,7 @@ def _with_usual_law(given: Axes) -> Axes:
 
 
 def _least_period(instants: Callable[[], Overlapping]) -> float | None:
-    """The least period in seconds of a program of instants; None where it cannot be made or has none."""
+    """The least period in seconds of a program of instants; None where it cannot be set up or has no solution."""
     try:
         of_laws, unknowns, _ = instants().shortest()
     except (InfeasibleProblem, InputError, SolverFailure):
