@@ -73,7 +73,9 @@ def advise(
     advice: dict[str, Advice] = {}
     failure: Stopped | None = None
     ways: dict[str, Callable[[], Advice]] = {"": lambda: _of_move(**move, mass=mass, wishes=wishes)}
+    left_out = ""
     if file is not None:
+        left_out = _left_out(file)
         ways = {name: partial(optlaws.advise, cycle, **wishes) for name, cycle in read_axes(file, axis, "cam").items()}
     for name, make in ways.items():
         try:
@@ -85,9 +87,8 @@ def advise(
     if output is not None:
         proofs = {name: each.proofs() for name, each in advice.items()}
         save(output, {"axes": proofs} if file is not None else {"move": proofs[""]})
-    left = "" if file is None else _left_out(file)
     return Answer(
-        lambda: _shown(advice, left), lambda: _data(advice, alone=file is None), lambda: _drawn(advice), failure
+        lambda: _shown(advice, left_out), lambda: _data(advice, alone=file is None), lambda: _drawn(advice), failure
     )
 
 
