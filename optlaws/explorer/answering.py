@@ -28,6 +28,7 @@ from optlaws.explorer.views import (
     old_cam_view,
 )
 from optlaws.explorer.views.cycle_view import CycleRequest
+from optlaws.explorer.views.opened_results import OPENED
 from optlaws.explorer.views.requests import LawsRequest, read
 from optlaws.sentences import parts_of
 
@@ -118,7 +119,7 @@ def answer_from(connection: Connection) -> None:
     Thread(target=_end_with_the_server, daemon=True).start()
     while True:
         try:
-            name, body, seconds = connection.recv()
+            name, body, seconds, OPENED.text = connection.recv()
             _end_after(seconds)
             reply = answered(name, body)
             _end_after(0.0)

@@ -20,7 +20,8 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
 
 from optlaws import Drive, catalogue
-from optlaws.explorer.answering import EXAMPLES, QUESTIONS, message
+from optlaws.explorer.answering import EXAMPLES, OK, QUESTIONS, message
+from optlaws.explorer.start import OpenRequest, results_of
 from optlaws.explorer.views import cam_view, cycle_view, law_view, machine_view, old_cam_view
 from optlaws.explorer.workers import MOST, SLICE, USUAL, Workers
 from optlaws.exports.format import FORMATS
@@ -109,6 +110,9 @@ def _asking(name: str, workers: Workers) -> Callable[[Request], Any]:
             answering.cancel()
             return Response(status_code=_LEFT)
         code, content = answering.result()
+        if name == "open" and code == OK:
+            file = msgspec.json.decode(body, type=OpenRequest)
+            workers.results = results_of(file.name, file.text)
         return _json(content, code)
 
     return respond

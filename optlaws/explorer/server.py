@@ -38,9 +38,9 @@ def opened(port: int | None) -> socket.socket:
     return listening
 
 
-def server(start: dict[str, Any]) -> uvicorn.Server:
-    """The server, ready to run on a socket."""
-    workers = Workers()
+def server(start: dict[str, Any], results: str = "") -> uvicorn.Server:
+    """The server, ready to run on a socket; `results` is the text of the file of results that the page shows first."""
+    workers = Workers(results)
 
     class Server(uvicorn.Server):
         """A server that stops its computations before it waits for answers."""
@@ -56,9 +56,9 @@ def server(start: dict[str, Any]) -> uvicorn.Server:
     )
 
 
-def explore(start: dict[str, Any], port: int | None = None, *, browser: bool = True) -> None:
+def explore(start: dict[str, Any], results: str = "", port: int | None = None, *, browser: bool = True) -> None:
     """Serve the page until interrupted, and show it in the user's browser."""
-    serving = server(start)
+    serving = server(start, results)
     with opened(port) as listening:
         address = f"http://{ADDRESS}:{listening.getsockname()[1]}/"
         print(f"optlaws explorer: {address}  (Ctrl-C ends it)", flush=True)  # noqa: T201 - the address

@@ -42,6 +42,13 @@ def start(given: str | None) -> dict[str, Any]:
     return _of_text(given, reading.text(Path(given), legacy=not given.lower().endswith(".json")))
 
 
+def results_of(given: str | None, text: str | None = None) -> str:
+    """The text of a file of results, read unless it is given; empty where what is given is none."""
+    if given is None or not given.lower().endswith(".json"):
+        return ""
+    return reading.text(Path(given)) if text is None else text
+
+
 def _law(law: dict[str, Any]) -> dict[str, Any]:
     return {"view": "laws", "laws": [law]}
 

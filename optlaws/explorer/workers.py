@@ -65,10 +65,10 @@ class Worker:
         if hasattr(os, "setpriority") and self.alive:
             os.setpriority(os.PRIO_PROCESS, self._process.pid or 0, _YIELDING)
 
-    def answer(self, name: str, body: bytes, patience: float) -> Reply:
+    def answer(self, name: str, body: bytes, patience: float, results: str) -> Reply:
         """Wait for the answer to a question; if the process ends first, it is a sentence that reports it."""
         try:
-            self._connection.send((name, body, patience))
+            self._connection.send((name, body, patience, results))
             reply: Reply = self._connection.recv()
         except (EOFError, OSError):
             self._process.join()
@@ -84,9 +84,10 @@ class Worker:
 
 
 class Workers:
-    """The processes of a server."""
+    """The processes of a server, and the text of the file of results that its page opened last."""
 
-    def __init__(self) -> None:
+    def __init__(self, results: str = "") -> None:
+        self.results = results
         self._idle: list[Worker] = []
         self._all: set[Worker] = set()
         self._busy = False
@@ -146,7 +147,7 @@ class Workers:
         while not self._idle:
             await self.prepare(1)
         worker = self._idle.pop()
-        return worker, asyncio.create_task(asyncio.to_thread(worker.answer, name, body, patience))
+        return worker, asyncio.create_task(asyncio.to_thread(worker.answer, name, body, patience, self.results))
 
     @staticmethod
     async def _wait(worker: Worker, reply: asyncio.Task[Reply], seconds: float, *, end: bool) -> None:

@@ -4,6 +4,7 @@ import json
 import re
 import tomllib
 from base64 import b64decode
+from collections.abc import Callable
 from dataclasses import replace
 from html import escape
 from math import degrees, hypot
@@ -29,15 +30,18 @@ from optlaws import (
     synthesize,
 )
 from tests.documents import ROOT
-from tests.explorer.talk import OPTIMAL
+from tests.explorer.talk import OPTIMAL, Server, written
 from tests.internals.cams import cam_files
+from tests.internals.cycles import best_of
 from tests.internals.explorer import (
     EXAMPLES,
+    OPENED,
     CycleRequest,
     FileRequest,
     LawRequest,
     LawsRequest,
     OpenRequest,
+    answered,
     axes_view,
     cam_view,
     cycle_view,
@@ -222,6 +226,54 @@ def test_results_are_opened_as_what_they_are_of(file: str, view: str) -> None:
     answer = views[view].answer(CycleRequest(study=part_of(found), axis=found.get("axis", 0)))
     assert "refused" not in answer
     msgspec.json.encode(answer, enc_hook=str)
+
+
+@pytest.mark.parametrize(("file", "view"), [("cycle_rocker/cycle", "machine"), ("cam_best_laws/cam", "cam")])
+def test_opened_results_are_shown_without_a_search(file: str, view: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = ROOT / "results" / f"{file}.json"
+    monkeypatch.setattr(OPENED, "text", path.read_text("utf-8"))
+    monkeypatch.setattr("optlaws.jobs.sought_cam.best_cam", None)
+
+    def known(layout: Any, *given: Any) -> Any:
+        assert not layout.spans, "a search"
+        return best_of(layout, *given)
+
+    monkeypatch.setattr("optlaws.cycles.cycle.best_of", known)
+    found = start(str(path))
+    asked = CycleRequest(study=part_of(found))
+    views = {"cam": cam_view, "machine": machine_view}
+    assert "refused" not in views[view].answer(asked)
+    if view == "machine":
+        (axis,) = json.loads(path.read_text("utf-8"))["axes"].values()
+        answer = json.loads(answered("cycle", msgspec.json.encode(asked))[1])
+        facts = "; ".join(map(written, answer["trust"]["facts"]))
+        assert f"least RMS torque {axis['objective']:.6g}" in facts
+        assert f"{axis['lower_bound']:.6g}" in facts
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda text: text.replace('"objective": ', '"objective": 1'),
+        lambda _: '{"axes": 3}',
+        lambda text: text[: len(text) // 2],
+    ],
+)
+def test_results_that_state_what_is_not_so_are_computed_again(
+    damage: Callable[[str], str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = ROOT / "results" / "cycle_press" / "cycle.json"
+    study = start(str(path))["machine"]
+    monkeypatch.setattr(OPENED, "text", damage(path.read_text("utf-8")))
+    asked = CycleRequest(study=study | {"title": f"a press {damage(path.read_text('utf-8'))[:40]}"})
+    assert OPENED.plan_of(cycle_view.cycle(asked).specification) is None
+    assert cycle_view.answer(asked)["trust"]["status"] == "optimal"
+
+
+def test_the_server_takes_what_the_page_opens(served: Server) -> None:
+    path = ROOT / "results" / "cycle_rocker" / "cycle.json"
+    machine = served.ask("open", {"name": path.name, "text": path.read_text("utf-8")})["state"]["machine"]
+    assert served.ask("machine?patience=60", {"study": machine})["trust"]["word"] == "local"
 
 
 def test_a_stored_cycle_plan_and_machine_are_opened(tmp_path: Path) -> None:

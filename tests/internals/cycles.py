@@ -17,6 +17,7 @@ from optlaws.cycles.old_tables.stated_functions import stretches_of_pieces
 from optlaws.cycles.old_tables.stretches import law_of_move, position
 from optlaws.cycles.optimisation import optimal
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
+from optlaws.cycles.optimisation.shared_limits import best_of
 from optlaws.cycles.report import CycleReport, overload_rows
 from optlaws.cycles.specification.limits import LIMITS_OF_CYCLE, LIMITS_OF_MOVE
 from optlaws.cycles.specification.load import ElasticFollower

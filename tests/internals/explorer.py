@@ -1,7 +1,7 @@
 """Internals of `optlaws.explorer` that tests look at by themselves."""
 
 from optlaws.explorer import downloads
-from optlaws.explorer.answering import EXAMPLES, QUESTIONS
+from optlaws.explorer.answering import EXAMPLES, QUESTIONS, answered
 from optlaws.explorer.application import MOST_BYTES, page
 from optlaws.explorer.downloads import FileRequest
 from optlaws.explorer.server import ADDRESS, opened, server
@@ -18,5 +18,6 @@ from optlaws.explorer.views import (
     old_cam_view,
 )
 from optlaws.explorer.views.cycle_view import CycleRequest, example
+from optlaws.explorer.views.opened_results import OPENED
 from optlaws.explorer.views.panel_data import fact_sentences, panel_data, table_data
 from optlaws.explorer.views.requests import LawRequest, LawsRequest, given_law, law_of, problem_of, solved

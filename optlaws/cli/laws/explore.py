@@ -19,6 +19,6 @@ def explore(file: str | None = None, /, *, port: Whole | None = None, no_browser
         Print the address and open no browser.
     """
     from optlaws.explorer.server import explore as serve
-    from optlaws.explorer.start import start
+    from optlaws.explorer.start import results_of, start
 
-    serve(start(file), port, browser=not no_browser)
+    serve(start(file), results_of(file), port, browser=not no_browser)

@@ -43,6 +43,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import limit_beside, synthesize
+from optlaws.synthesis.status import Status
 from optlaws.tolerances import AGREEMENT
 
 if TYPE_CHECKING:
@@ -367,7 +368,8 @@ def bound_by_energy(span: LawSpan, objective: CycleObjective, solution: Solution
     # one move from rest to rest, with an inertia and no spring that pushes away
     plain = linear is not None and linear.inertia > 0.0 and linear.stiffness >= 0.0
     known = solution.lower_bound if exact else 0.0
-    if (exact and solution.problem.convex) or not (least or most) or not plain or drive is None or linear is None:
+    proven = exact and (solution.problem.convex or solution.status is Status.OPTIMAL)
+    if proven or not (least or most) or not plain or drive is None or linear is None:
         return known
     unit = span_value(span, drive, Kind.POWER).unit
     ceiling = min(solution.objective if least else inf, most / unit if most else inf)

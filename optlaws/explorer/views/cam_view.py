@@ -18,6 +18,7 @@ from optlaws.cams.report import DIGITS, CamReport, forces_section, leaves, named
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located
 from optlaws.explorer.views.cycle_view import SEGMENTS, CycleRequest
 from optlaws.explorer.views.law_view import refusing
+from optlaws.explorer.views.opened_results import OPENED
 from optlaws.explorer.views.panel_data import drawn, fact_sentences, panel_data
 from optlaws.explorer.views.requests import check_size, without_files
 from optlaws.jobs.cam_entries import CamProblemFile
@@ -65,7 +66,7 @@ def _solved(question: str) -> CamResult:
     spec = CamProblemFile.read(data, _WHERE)
     check_size(spec.motion.order, spec.motion.degree)
     with located(str(_WHERE)):
-        return CamResult.of_file(spec)
+        return OPENED.cam_of(spec) or CamResult.of_file(spec)
 
 
 def drawing(cam: DiscCam, cutter: Any = None) -> dict[str, Any]:

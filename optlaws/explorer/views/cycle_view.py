@@ -22,6 +22,7 @@ from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.entries.declared import entries_of
 from optlaws.errors import InfeasibleProblem, SolverFailure, located
 from optlaws.explorer.views.law_view import digits, refusing, verdict
+from optlaws.explorer.views.opened_results import OPENED
 from optlaws.explorer.views.panel_data import fact_sentences, panel_data, table_data
 from optlaws.explorer.views.requests import MOST_LAWS, check_size, without_files
 from optlaws.files import reading
@@ -134,6 +135,10 @@ def stored(spec: CycleProblemFile, axis: AxisEntries) -> Plan:
 @lru_cache(maxsize=128)
 def _solved(axis: AxisEntries, speed: NumberOrQuantity | None, period: NumberOrQuantity | None) -> Plan:
     motor, drive = (axis.drive or {}).get("motor"), axis.drive or {}
+    cycle = cycle_of(axis, speed, period)
+    known = OPENED.plan_of(cycle)
+    if known is not None:
+        return known
     if isinstance(motor, Mapping) and LIMITING & motor.keys() and not axis.limits.get("motor"):
         # the laws stay while a limit of the motor is dragged
         free = {name: entry for name, entry in motor.items() if name not in LIMITING}
@@ -141,7 +146,7 @@ def _solved(axis: AxisEntries, speed: NumberOrQuantity | None, period: NumberOrQ
         with located("drive"), located("motor"):
             limited = Motor.from_dict(motor)
         return _solved(same, speed, period).with_motor(limited)
-    return cycle_of(axis, speed, period).unchecked()
+    return cycle.unchecked()
 
 
 def _segments(report: CycleReport) -> Iterator[dict[str, Any]]:
