@@ -450,7 +450,7 @@ def test_laws_of_least_power_count_the_spring_that_they_need(tmp_path: Path, mon
     text = re.sub(r'(mass = "3 kg").* }', r"\1 }", text)
     text += '[spring]\nspeeds = ["0 rpm", "180 rpm"]\npreload = "20 N"\n'
     page, reply, _ = done(tmp_path, text.replace("degree = 15", "degree = 9"))
-    assert relaxed.call_count == 2  # one for each motion
+    assert relaxed.call_count == 1  # of two motions, one is proven by its own bound
     drive = reply["cam"]["motion"]["drive"]
     assert drive["preload"] == "20 N"
     # four digits, rounded up
