@@ -1,14 +1,14 @@
-"""Derivatives of formulas, themselves formulas."""
+"""Derivatives of formulas, themselves formulas, and their values as arrays."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from optlaws.errors import InputError
-from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.arithmetic import NUMPY, Together, evaluate
 from optlaws.formulas.tree import (
     Call,
     Exponentiation,
@@ -24,6 +24,8 @@ from optlaws.formulas.tree import (
     product,
     total,
 )
+from optlaws.kept import kept_property
+from optlaws.numbers import Array
 
 _ZERO, _ONE = Number(0.0), Number(1.0)
 
@@ -174,3 +176,75 @@ def multiplied(factors: list[Formula]) -> Formula:
         return _ZERO
     result = product(others if value == 1.0 and others else [Number(value), *others])
     return Negative(result) if minus else result
+
+
+@dataclass(frozen=True, eq=False)
+class Slopes:
+    """A formula with its first and second derivatives by some of its names, at places that have a k.
+
+    >>> from optlaws.formulas.reading import read
+    >>> at = {"b": np.array([2.0, 3.0]), "c": np.array([1.0, 1.0]), "k": np.array([0.0, 1.0])}
+    >>> value, gradient, hessian = Slopes(read("b^2*c"), ("b", "c")).derivatives(at)
+    >>> value.tolist(), gradient.tolist(), hessian[:, :, 0].tolist()
+    ([4.0, 9.0], [[4.0, 6.0], [4.0, 9.0]], [[2.0, 4.0], [4.0, 0.0]])
+    """
+
+    formula: Formula
+    names: tuple[str, ...]
+
+    @kept_property
+    def _first(self) -> tuple[Formula, ...]:
+        return tuple(derivative(self.formula, name) for name in self.names)
+
+    @kept_property
+    def _second(self) -> tuple[Formula, ...]:
+        """By two names, by the second one up to the first: the others are the same."""
+        return tuple(derivative(slope, name) for i, slope in enumerate(self._first, 1) for name in self.names[:i])
+
+    @kept_property
+    def _itself(self) -> Together:
+        return Together((self.formula,))
+
+    @kept_property
+    def _up_to_first(self) -> Together:
+        return Together((self.formula, *self._first))
+
+    @kept_property
+    def _up_to_second(self) -> Together:
+        return Together((self.formula, *self._first, *self._second))
+
+    def second(self, i: int, j: int) -> Formula:
+        """The formula of the second derivative by two of the names."""
+        later, sooner = max(i, j), min(i, j)
+        return self._second[later * (later + 1) // 2 + sooner]
+
+    def value(self, at: Mapping[str, Array]) -> Array:
+        """Values of the formula at the places."""
+        return np.asarray(_arrays(self._itself, at)[0])
+
+    def value_and_gradient(self, at: Mapping[str, Array]) -> tuple[Array, Array]:
+        """Values of the formula, and its derivatives, shape (names, *places)."""
+        values = _arrays(self._up_to_first, at)
+        return values[0], _without_tips(values[1:])
+
+    def derivatives(self, at: Mapping[str, Array]) -> tuple[Array, Array, Array]:
+        """The same, and second derivatives, shape (names, names, *places)."""
+        count = len(self.names)
+        values = _arrays(self._up_to_second, at)
+        rows, columns = np.tril_indices(count)
+        bends = np.empty((count, count, *values.shape[1:]))
+        bends[rows, columns] = bends[columns, rows] = _without_tips(values[1 + count :])
+        return values[0], _without_tips(values[1 : 1 + count]), bends
+
+
+def _arrays(formulas: Together, at: Mapping[str, Array]) -> Array:
+    values = np.empty((len(formulas.formulas), *np.shape(at["k"])))
+    with np.errstate(all="ignore"):
+        for i, value in enumerate(formulas.values(at, NUMPY)):
+            values[i] = value
+    return values
+
+
+def _without_tips(slopes: Array) -> Array:
+    """The values of slopes; 0 at the tip of a norm, where 0 is the slope of a valid tangent."""
+    return np.where(np.isnan(slopes), 0.0, slopes)

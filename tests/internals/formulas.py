@@ -5,6 +5,6 @@ from optlaws.formulas.convexity import Curvature, Endpoints, Judge, affine, degr
 from optlaws.formulas.jets import formula_jet
 from optlaws.formulas.of_motion import MotionFormula, of_text
 from optlaws.formulas.reading import DEEPEST, LONGEST, read
-from optlaws.formulas.slopes import derivative
+from optlaws.formulas.slopes import Slopes, derivative
 from optlaws.formulas.tracing import Traced, traced
 from optlaws.formulas.tree import ORDERS, SMOOTH_FUNCTIONS, Formula, Name, Table

@@ -12,7 +12,6 @@ from optlaws.synthesis.families.cone import ConeFamily, stationary_places
 from optlaws.synthesis.families.curved import CurvedFamily, FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, ProductFamily, Program
-from optlaws.synthesis.families.formula_slopes import Slopes, tabulated
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.families.peaks import peaks

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
+from optlaws.formulas.slopes import Slopes
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import product, real_parts_of_roots
 from optlaws.synthesis.families.family import NonlinearFamily, RowJet, SeriesFamily, last_result
-from optlaws.synthesis.families.formula_slopes import Slopes
 from optlaws.synthesis.families.peaks import peaks, products
 from optlaws.tolerances import EPSILON, ROW_ROUNDING, TINY
 
@@ -52,12 +52,13 @@ def sum_of_squares(
     root
         Whether its root is meant.
     """
-    sizes, axes = np.linalg.eigh(slopes.hessian(at).transpose(2, 0, 1) / 2.0)
+    value, gradient, hessian = slopes.derivatives(at)
+    sizes, axes = np.linalg.eigh(hessian.transpose(2, 0, 1) / 2.0)
     # it is convex: what is below 0 is rounding
     lengths = np.sqrt(np.maximum(sizes, 0.0) * weights[:, None])
     rows = np.einsum("pij,pj,ipn->pjn", axes, lengths, columns).reshape(-1, columns.shape[2])
-    affine = np.einsum("ip,ipn->n", slopes.gradient(at) * weights, columns)
-    affine[-1] += float(weights @ slopes.value(at))
+    affine = np.einsum("ip,ipn->n", gradient * weights, columns)
+    affine[-1] += float(weights @ value)
     return SumOfSquares(rows, affine, root)
 
 

@@ -14,7 +14,7 @@ from optlaws.formulas.arithmetic import NUMPY, Together
 from optlaws.formulas.branches import corners, switches
 from optlaws.formulas.convexity import degree, quadratic
 from optlaws.formulas.of_motion import MotionFormula
-from optlaws.formulas.slopes import scaled
+from optlaws.formulas.slopes import Slopes, scaled
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, total
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
@@ -23,7 +23,6 @@ from optlaws.numerics.panels import candidates
 from optlaws.numerics.roots import sign_changes
 from optlaws.synthesis.families.cone import SumOfSquares, sum_of_squares
 from optlaws.synthesis.families.family import LinearFamily, NonlinearFamily, RowJet, WholeLawFamily, last_result
-from optlaws.synthesis.families.formula_slopes import FactorTables, Slopes
 from optlaws.synthesis.families.peaks import greatest
 from optlaws.synthesis.families.piece_series import sides_of
 from optlaws.tolerances import LEAST_ENERGY, ROUNDOFF
@@ -123,9 +122,9 @@ class CurvedFamily(FormulaFamily):
         rows = np.zeros((*values.shape, len(x)))
         if not len(u):
             return values.ravel(), rows.reshape(-1, len(x))
-        columns, (_, turned, _), names, *_ = self._expansion(u[None], np.append(x, 1.0)[None])
+        columns, (_, turned, _), names, _ = self._expansion(u[None], np.append(x, 1.0)[None])
         jets = [self.jet(x, u, np.full(len(u), sign)) for sign in self.signs]
-        slopes = [corner.gradient(names)[:, 0] for corner in self.corners]
+        slopes = [corner.value_and_gradient(names)[1][:, 0] for corner in self.corners]
         for place, i in enumerate(np.argmin(np.abs(heights(u)), axis=0)):
             gradient = slopes[i][:, place]
             turning = gradient[:-1] @ turned[:, 0, place] - 0.5 * gradient[-1]
@@ -154,9 +153,10 @@ class CurvedFamily(FormulaFamily):
             return None
         values = np.array(point)[:, None]
         at = self._at(values, np.array([u]))
-        gradient = self.slopes.gradient(at)[:-1, 0]
+        (value,), slopes = self.slopes.value_and_gradient(at)
+        gradient = slopes[:-1, 0]
         row = sign * (gradient @ self.columns(np.array([u]))[:, 0, 0])
-        row[-1] += sign * float(self.slopes.value(at)[0] - gradient @ values[:, 0])
+        row[-1] += sign * float(value - gradient @ values[:, 0])
         return np.asarray(row)
 
     @kept_property
@@ -190,13 +190,13 @@ class CurvedFamily(FormulaFamily):
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """Planes that touch the formula and its derivative by the place, by the chain rule."""
-        columns, (values, turned, bends), names, gradient, bend = self._expansion(u, point)
+        columns, (values, turned, bends), _, (height, gradient, bend) = self._expansion(u, point)
         rows, slopes = columns[:, 0], columns[:, 1]
         way = np.concatenate([turned, np.full((1, *u.shape), -0.5)])
         turning = np.einsum("ijmp,jmp->imp", bend, way)
         shares = gradient[:-1]
         value = np.einsum("imp,impn->mpn", shares, rows)
-        value[:, :, -1] += self.slopes.value(names) - (shares * values).sum(axis=0)
+        value[:, :, -1] += height - (shares * values).sum(axis=0)
         slope = np.einsum("imp,impn->mpn", turning[:-1], rows) + np.einsum("imp,impn->mpn", shares, slopes)
         slope[:, :, -1] += gradient[-1] * -0.5 - (turning[:-1] * values).sum(axis=0)
         curvature = (turning * way).sum(axis=0) + (shares * bends).sum(axis=0)
@@ -204,27 +204,27 @@ class CurvedFamily(FormulaFamily):
 
     def jet(self, x: Array, u: Array, s: Array) -> RowJet:
         """Residuals of one law with their derivatives; where it is bent rounding in its planes would be great."""
-        _, (_, turned, _), names, gradient, _ = self._expansion(u[None], np.append(x, 1.0)[None])
+        _, (_, turned, _), _, (height, gradient, _) = self._expansion(u[None], np.append(x, 1.0)[None])
         slope = (gradient[:-1] * turned).sum(axis=0)[0] - 0.5 * gradient[-1, 0]
-        value = s * self.slopes.value(names)[0] - self.right_side(x)
+        value = s * height[0] - self.right_side(x)
         return replace(super().jet(x, u, s), value=value, slope=s * slope)
 
     @last_result
-    def _expansion(self, u: Array, point: Array) -> tuple[Array, Array, dict[str, Array], Array, Array]:
-        """The parts' columns, what these are in each law, the names, and the formula's first and second derivatives."""
+    def _expansion(self, u: Array, point: Array) -> tuple[Array, Array, dict[str, Array], tuple[Array, Array, Array]]:
+        """The parts' columns, what these are in each law, the names, and the formula with its derivatives."""
         columns = self.columns(u)
         moved = (columns @ point[:, :, None])[..., 0].swapaxes(0, 1)
         names = self._at(moved[0], u)
-        return columns, moved, names, self.slopes.gradient(names), self.slopes.hessian(names)
+        return columns, moved, names, self.slopes.derivatives(names)
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:
         """The second derivatives of the weighted formula, between each two parts' rows."""
-        columns, *_, bend = self._expansion(u, point)
+        columns, *_, (_, _, bend) = self._expansion(u, point)
         return between(bend[:-1, :-1] * weights, columns[:, 0, ..., :-1])
 
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:
         """Rounding bounds of the parts' rows, by the slopes of the formula at each place."""
-        columns, _, _, gradient, _ = self._expansion(u, point)
+        columns, *_, (_, gradient, _) = self._expansion(u, point)
         shares = np.abs(gradient[:-1]) * weights
         of_parts = np.array([part.rounding for _, part in self.parts])
         sizes = _IN_A_ROW * ROUNDOFF * np.abs(columns[:, 0]) + of_parts[:, None, None]
@@ -341,12 +341,11 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
     weights: Array  #: of the nodes
     root: bool = False  #: whether the root of the sum is meant
     convex: bool = False  #: whether f is convex, so that its tangents are nowhere above it
-    tables: FactorTables | None = None  #: of factors for which the formula has names
 
     @kept_property
     def slopes(self) -> Slopes:
         """The formula with its derivatives by the names."""
-        return Slopes(self.formula, self.names, self.tables)
+        return Slopes(self.formula, self.names)
 
     def scaled_down(self, by: float) -> Self:
         """The same row, divided by a power of 2; under a root the formula is by its square."""
@@ -389,10 +388,11 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
         at = self._at(values)
         # in a law so far away that the formula overflows there is no tangent
         with np.errstate(over="ignore", invalid="ignore"):
-            gradient = self.slopes.gradient(at) * self.weights
-            height, share = self.touched(np.array(float(self.weights @ self.slopes.value(at))))
-            row = np.asarray(share * np.einsum("ip,ipn->n", gradient, self.columns))
-            row[-1] += float(height) - share * float((gradient * values).sum())
+            value, gradient = self.slopes.value_and_gradient(at)
+            height, share = self.touched(np.array(float(self.weights @ value)))
+            weighted = gradient * self.weights
+            row = np.asarray(share * np.einsum("ip,ipn->n", weighted, self.columns))
+            row[-1] += float(height) - share * float((weighted * values).sum())
         return row if np.isfinite(row).all() else None
 
     def outer(self, total: Array) -> tuple[Array, Array]:
@@ -415,9 +415,9 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
 
     def _planes(self, names: dict[str, Array]) -> tuple[Array, Array, Array]:
         """The tangent in each law, its slope with respect to the sum over the nodes, and the sum's rows with 1 last."""
-        weighted = self.slopes.gradient(names) * self.weights
-        height, share = self.touched(self.slopes.value(names) @ self.weights)
-        return height, share, np.asarray((weighted @ self.columns).sum(axis=0))
+        value, gradient = self.slopes.value_and_gradient(names)
+        height, share = self.touched(value @ self.weights)
+        return height, share, np.asarray((gradient * self.weights @ self.columns).sum(axis=0))
 
     def planes(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         height, share, rows = self._planes(self._at_nodes(point))
@@ -428,7 +428,7 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
 
     def hessians(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002 - it has no place
         names = self._at_nodes(point)
-        moved = between(self.slopes.hessian(names) * self.weights, self.columns[:, None, :, :-1])
+        moved = between(self.slopes.derivatives(names)[2] * self.weights, self.columns[:, None, :, :-1])
         if self.root:
             _, share, rows = self._planes(names)
             of_law = rows[:, :-1]
@@ -439,9 +439,10 @@ class IntegralFamily(WholeLawFamily, FormulaFamily):
     def rounding_errors(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - it has no place
         """Rounding bounds of the names' rows, by the slopes of the formula at each node."""
         names = self._at_nodes(point)
-        sizes = np.abs(self.slopes.gradient(names)) * self.weights
+        value, gradient = self.slopes.value_and_gradient(names)
+        sizes = np.abs(gradient) * self.weights
         rows = np.einsum("imp,ipn->mn", sizes, np.abs(self.columns))
-        share = self.outer(self.slopes.value(names) @ self.weights)[1]
+        share = self.outer(value @ self.weights)[1]
         blur = (_IN_A_ROW + len(self.places)) * ROUNDOFF
         return np.asarray((blur * share * weights.sum(axis=1))[:, None] * rows)
 

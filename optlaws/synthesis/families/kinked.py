@@ -16,6 +16,7 @@ import numpy as np
 
 from optlaws.formulas.arithmetic import NUMPY, Together
 from optlaws.formulas.branches import branches_at, knots, rounded
+from optlaws.formulas.slopes import Slopes
 from optlaws.formulas.tree import Formula, Number
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
@@ -23,7 +24,6 @@ from optlaws.numerics.chebyshev import gauss
 from optlaws.numerics.roots import sign_changes
 from optlaws.synthesis.families.curved import IntegralFamily, between
 from optlaws.synthesis.families.family import RowJet, last_result
-from optlaws.synthesis.families.formula_slopes import FactorTables, Slopes, tabulated
 
 _ZERO = Number(0.0)
 #: places at which kinks are looked for on a piece, times those of the rule
@@ -99,21 +99,18 @@ class KinkedIntegralFamily(IntegralFamily):
     length: int  #: how many places a stretch needs
 
     @kept_property
-    def _tabulated(self) -> tuple[Formula, Together, Together, FactorTables | None]:
-        """The formula and its switches over names for factors of the position, with the factors' tables."""
-        plain, bent = knots(self.formula, self.names)
-        (formula, *switches), tables = tabulated((self.formula, *plain, *bent))
-        return formula, Together(tuple(switches[: len(plain)])), Together(tuple(switches[len(plain) :])), tables
+    def _switches(self) -> list[Together]:
+        """What changes its sign where the formula has kinks, and where it bends alone."""
+        return [Together(tuple(formulas)) for formulas in knots(self.formula, self.names)]
 
     def in_units(self, units: Array, unit: float) -> Self:
         return replace(super().in_units(units, unit), units=self.units * np.append(units, 1.0))
 
     def rounded(self, share: float, x: Array) -> IntegralFamily:
         """The integral at its nodes of a smooth formula near it, with hyperbolas of a share of f in a law as radius."""
-        formula, *_, tables = self._tabulated
         given = {field.name: getattr(self, field.name) for field in fields(IntegralFamily)}
-        smooth = rounded(formula, share * abs(float(self.value(x, np.ones(1))[0])))
-        return IntegralFamily(**{**given, "formula": smooth, "tables": tables, "convex": False})
+        smooth = rounded(self.formula, share * abs(float(self.value(x, np.ones(1))[0])))
+        return IntegralFamily(**{**given, "formula": smooth, "convex": False})
 
     @property
     def quadratic(self) -> bool:
@@ -149,51 +146,41 @@ class KinkedIntegralFamily(IntegralFamily):
         split = KinkSplit(stretches, 0.0, np.zeros(len(point)), columns, self._names(point, k, columns), weights)
         total, slope = 0.0, split.slope
         for formula, names, rows, shares in split.by_formula():
-            values, gradient = self._slopes(formula, self.names).value_and_gradient(names)
+            values, gradient = _slopes(formula, self.names).value_and_gradient(names)
             total += float(shares @ values)
             slope += np.tensordot(gradient * shares, rows, 2)
         return replace(split, total=total)
 
     def _stretches(self, point: Array) -> list[SmoothStretch]:
         edges = list(self.edges)
-        formula, plain, bent, tables = self._tabulated
-        for switches in (plain, bent):
+        for switches in self._switches:
             if switches.formulas:
                 changes = sign_changes(partial(self._values, switches, point), edges, _LOOKS * self.length)
                 edges = sorted({*edges, *changes.tolist()})
         stretches: list[SmoothStretch] = []
-        places = self._plain_places(point, np.array(edges), [plain, bent])
-        names = self._with_factors(self._names(point, places, self.columns_at(places)))
-        for (low, high), branch in zip(pairwise(edges), branches_at(formula, names, len(places)), strict=True):
-            # of factors in tables the stretches end at the knots too
-            same = tables is None and low not in self.edges and stretches and stretches[-1].formula == branch
+        places = self._plain_places(point, np.array(edges))
+        names = self._names(point, places, self.columns_at(places))
+        for (low, high), branch in zip(pairwise(edges), branches_at(self.formula, names, len(places)), strict=True):
+            same = low not in self.edges and stretches and stretches[-1].formula == branch
             if same:
                 stretches[-1] = replace(stretches[-1], high=high)
             else:
                 stretches.append(SmoothStretch(low, high, branch))
         return stretches
 
-    def _plain_places(self, point: Array, edges: Array, switches: list[Together]) -> Array:
+    def _plain_places(self, point: Array, edges: Array) -> Array:
         """A place between any two edges where no switch is near 0, as some are in the middle of symmetric laws."""
         places = edges[:-1] + np.diff(edges) * np.array(_WITHIN)[:, None]
-        together = [self._values(some, point, places.ravel()) for some in switches if some.formulas]
+        together = [self._values(some, point, places.ravel()) for some in self._switches if some.formulas]
         values = np.abs(np.vstack([np.zeros((0, places.size)), *together])).reshape(-1, *places.shape)
         greatest = values.max(axis=(1, 2), initial=0.0)[:, None, None]
         clear = (values / np.where(greatest == 0.0, 1.0, greatest)).min(axis=0, initial=1.0)
         return np.asarray(places[np.argmax(clear, axis=0), np.arange(len(edges) - 1)])
 
     def _values(self, formulas: Together, point: Array, k: Array) -> Array:
-        names = self._with_factors(self._names(point, k, self.columns_at(k)))
+        names = self._names(point, k, self.columns_at(k))
         with np.errstate(all="ignore"):
             return np.array([np.broadcast_to(value, k.shape) for value in formulas.values(names, NUMPY)])
-
-    def _with_factors(self, names: dict[str, Array]) -> dict[str, Array]:
-        """Values of the names, and of factors that depend on the position."""
-        tables = self._tabulated[-1]
-        return names if tables is None else {**names, **tables.by_name(names["a"])}
-
-    def _slopes(self, formula: Formula, names: tuple[str, ...]) -> Slopes:
-        return _slopes(formula, names, self._tabulated[-1])
 
     def touching(self, x: Array, u: float) -> tuple[float, ...]:  # noqa: ARG002 - it has no place
         """The variables of the law."""
@@ -228,7 +215,7 @@ class KinkedIntegralFamily(IntegralFamily):
         value, share = self.outer(np.array(split.total))
         bend = np.zeros((len(x),) * 2)
         for formula, names, columns, shares in split.by_formula():
-            of_names = self._slopes(formula, self.names).hessian(names) * shares
+            of_names = _slopes(formula, self.names).derivatives(names)[2] * shares
             bend += between(of_names[:, :, None], columns[:, None, :, :-1])[0]
         bend *= share
         if self.root:
@@ -246,12 +233,11 @@ class KinkedIntegralFamily(IntegralFamily):
         What the formulas beside a kink differ by does not say where it is: at the knots of a spline that is nothing,
         and where a square begins it is 0 with its slope.
         """
-        _, plain, bent, _ = self._tabulated
         k = self.kinks_of(stretches)
         if not len(k):
             return []
-        names = self._with_factors(self._names(np.append(x, 1.0), k, self.columns_at(k)))
-        several = [branches_at(switch, names, len(k)) for switch in (*plain.formulas, *bent.formulas)]
+        names = self._names(np.append(x, 1.0), k, self.columns_at(k))
+        several = [branches_at(switch, names, len(k)) for switches in self._switches for switch in switches.formulas]
         away = [_distances(self.at_kinks(x, stretches, switches)) for switches in several]
         return [several[i][kink] for kink, i in enumerate(np.argmin(away, axis=0).tolist())]
 
@@ -266,9 +252,9 @@ class KinkedIntegralFamily(IntegralFamily):
         value, along, across = np.zeros(count), np.zeros(count), np.zeros((count, len(x)))
         for formula in dict.fromkeys(formula for terms in sums for formula in terms):
             times = np.array([terms.get(formula, 0.0) for terms in sums])
-            slopes = self._slopes(formula, (*self.names, "k"))
-            gradient = times * slopes.gradient(names)
-            value += times * slopes.value(names)
+            values, slopes = _slopes(formula, (*self.names, "k")).value_and_gradient(names)
+            gradient = times * slopes
+            value += times * values
             across += np.einsum("ip,ipn->pn", gradient[:-1], columns[:, :, :-1])
             along += np.einsum("ip,ip->p", gradient[:-1], turns @ point) + gradient[-1]
         return AtKinks(value, across, along)
@@ -303,5 +289,5 @@ def _distances(switches: AtKinks) -> Array:
 
 
 @lru_cache(maxsize=256)
-def _slopes(formula: Formula, names: tuple[str, ...], tables: FactorTables | None) -> Slopes:
-    return Slopes(formula, names, tables)
+def _slopes(formula: Formula, names: tuple[str, ...]) -> Slopes:
+    return Slopes(formula, names)

@@ -11,15 +11,13 @@ from numpy.typing import NDArray
 
 from optlaws import Chebyshev, Pieces, Problem, at_most, drive_torque, four_bar, slider_crank, synthesize
 from tests.contracts.test_families import random_cone
-from tests.internals.formulas import NUMPY, derivative, evaluate, read
+from tests.internals.formulas import NUMPY, Slopes, evaluate, read
 from tests.internals.synthesis import (
     CurvedFamily,
     KinkedIntegralFamily,
-    Slopes,
     model_of,
     peaks,
     stationary_places,
-    tabulated,
 )
 from tests.synthesis.judge import judge
 
@@ -158,7 +156,7 @@ def test_each_kink_is_a_simple_root_of_its_switch(text: str) -> None:
         assert moved / (2.0 * step) == pytest.approx(-across / at.along, rel=1e-5, abs=1e-6)
 
 
-# --- slopes from tables ---
+# --- slopes of a mechanism's torque ---
 
 
 CRANK = slider_crank("0.1 m", "0.4 m", bodies={"crank": "0.02 kg m^2", "slider": "5 kg"})
@@ -171,52 +169,23 @@ TORQUES = {
 NAMES = ("a", "b", "c", "k")
 
 
-def places(low: float, high: float) -> dict[str, Array]:
-    numbers = np.random.default_rng(5)
-    a = numbers.uniform(low, high, 40)
-    return {"a": a, "b": numbers.normal(size=40), "c": 3.0 * numbers.normal(size=40), "k": numbers.uniform(size=40)}
-
-
-@pytest.mark.sample(2)
 @pytest.mark.parametrize("name", TORQUES)
 @pytest.mark.parametrize("wrapped", ["{}", "({})^2", "({})*b + sin(a)*b"])
-def test_tables_say_what_formulas_say(name: str, wrapped: str) -> None:
-    formula, at = read(wrapped.format(TORQUES[name])), places(0.0, 1.0)
-    assert tabulated((formula,))[1] is not None
+def test_slopes_are_those_of_differences(name: str, wrapped: str) -> None:
+    numbers, step = np.random.default_rng(5), 1e-5
+    a = numbers.uniform(size=40)
+    at = {"a": a, "b": numbers.normal(size=40), "c": 3.0 * numbers.normal(size=40), "k": numbers.uniform(size=40)}
+    formula = read(wrapped.format(TORQUES[name]))
     slopes = Slopes(formula, NAMES)
-    first = [derivative(formula, name) for name in NAMES]
-    known = [evaluate(slope, at, NUMPY) for slope in first]
-    bends = [[evaluate(derivative(slope, other), at, NUMPY) for other in NAMES] for slope in first]
-    value, gradient = slopes.value_and_gradient(at)
-    assert value == pytest.approx(evaluate(formula, at, NUMPY), rel=1e-12, abs=1e-12)
-    assert np.array_equal(value, slopes.value(at))
-    assert np.array_equal(gradient, slopes.gradient(at))
-    hessian = slopes.hessian(at)
-    for i in range(len(NAMES)):
-        assert gradient[i] == pytest.approx(np.broadcast_to(known[i], 40), rel=1e-11, abs=1e-11)
-        for j in range(len(NAMES)):
-            assert hessian[i, j] == pytest.approx(np.broadcast_to(bends[i][j], 40), rel=1e-9, abs=1e-9)
-
-
-def test_beyond_the_tables_formulas_go_on() -> None:
-    formula, at = read(TORQUES["slider-crank"]), places(-0.6, 1.6)
-    slopes = Slopes(formula, NAMES)
-    assert slopes.value(at) == pytest.approx(evaluate(formula, at, NUMPY), rel=1e-13, abs=1e-13)
-    assert slopes.gradient(at)[0] == pytest.approx(evaluate(derivative(formula, "a"), at, NUMPY), rel=1e-12, abs=1e-12)
-
-
-def test_what_is_short_or_has_kinks_stays() -> None:
-    for text in ("(1 + 0.6*a^2)*c + 3*a", "table(a, 0:1, 0.5:2, 1:1)*c", "sin(k)*cos(2*k)*exp(-k)*c + b"):
-        assert tabulated((read(text),)) == ((read(text),), None)
-    [formula], _ = tabulated((read("abs(sin(a)*cos(2*a) + exp(-a) - 0.5*a)*c"),))
-    assert str(formula) == "abs(a0)*c"
-
-
-def test_what_has_no_values_beyond_the_stroke_is_tabulated_on_it() -> None:
-    formula = read("(2 + sqrt(a*(1 - a) + 0.1)*exp(sin(a)))*c + b^2")
-    _, tables = tabulated((formula,))
-    assert tables is not None
-    assert tables.edges[[0, -1]].tolist() == [0.0, 1.0]
+    value, gradient, hessian = slopes.derivatives(at)
+    assert value == pytest.approx(evaluate(formula, at, NUMPY), rel=1e-13)
+    assert np.array_equal(slopes.value(at), value)
+    assert np.array_equal(slopes.value_and_gradient(at)[1], gradient)
+    for i, moved in enumerate(NAMES):
+        ahead, behind = (slopes.value_and_gradient({**at, moved: at[moved] + side * step}) for side in (1.0, -1.0))
+        size = np.abs(gradient).max()
+        assert gradient[i] == pytest.approx((ahead[0] - behind[0]) / (2.0 * step), rel=1e-6, abs=1e-6 * size)
+        assert hessian[i] == pytest.approx((ahead[1] - behind[1]) / (2.0 * step), rel=1e-4, abs=1e-4 * size)
 
 
 # --- peaks of many series ---

@@ -202,7 +202,8 @@ class FormulaRows(BoxRows):
         touch = plane.touching(low, high)
         with np.errstate(all="ignore"):
             values = {**dict(zip(family.names, touch, strict=True)), "k": k}
-            value, gradient = family.slopes.value(values), family.slopes.gradient(values)[:-1]
+            value, gradient = family.slopes.value_and_gradient(values)
+            gradient = gradient[:-1]
             row = np.einsum("ip,ipn->pn", sign * gradient, parts)
             size = np.abs(value) + (np.abs(gradient) * np.maximum(np.abs(low), np.abs(high))).sum(axis=0)
             row[:, -1] += (
