@@ -32,10 +32,10 @@ from optlaws.synthesis.limits.closed_forms import (
     rms_limit,
 )
 from optlaws.synthesis.limits.drive_limits import LONG, limit_beside, limit_of_plane, phase_torque
-from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.limits.phase_plane import TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_plane_program import optimum
+from optlaws.synthesis.limits.standing import Standing
 from optlaws.synthesis.method import exchange, starts
 from optlaws.synthesis.method.discretised import ipopt, quadratic_steps
 from optlaws.synthesis.method.discretised.ipopt import KINDS, RowShape

@@ -12,7 +12,7 @@ parts.
 
 Where the velocity is bounded from a position on, the potential may jump there: by the squared velocity times the jump.
 
-The time is the one that is given, neither more nor less: see `motions.standing` for what follows of the mean
+The time is the one that is given, neither more nor less: see `limits.standing` for what follows of the mean
 torque, where the weight is that of the time above what standing still costs at least.
 
 Behind a gear with losses torques have one form while power flows to the load, x >= 0, and another while it flows back,
@@ -30,10 +30,10 @@ from optlaws.formulas.jets import formula_jet
 from optlaws.numbers import Array
 from optlaws.numerics.interval import Interval, between, exact
 from optlaws.numerics.taylor import Jet
-from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.phase_plane import PhasePlane
 from optlaws.synthesis.limits.phase_plane_cells import PI, CellBounds, Guess, Potential, ProofCells, positions
 from optlaws.synthesis.limits.phase_torque import AnyTorque
+from optlaws.synthesis.limits.standing import Standing
 from optlaws.tolerances import ROUNDOFF, SMALLEST_SIZE
 
 _EVEN_FALL = 1e-3  # of a potential by which a torque has one price everywhere: its fall, so that no velocity pays

@@ -23,10 +23,10 @@ from optlaws.errors import SolverFailure
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
 from optlaws.numerics.cones import conic_optimum, usable
-from optlaws.synthesis.limits.motions.elements import Elements
-from optlaws.synthesis.limits.motions.standing import Standing
+from optlaws.synthesis.limits.elements import Elements
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_torque import AnyTorque, GearTorque, PhaseTorque
+from optlaws.synthesis.limits.standing import Standing
 from optlaws.tolerances import SMALLEST_SIZE
 
 _PHASE_SOLVER = 1e-8  # what the solver of cones is told to leave of gap and feasibility

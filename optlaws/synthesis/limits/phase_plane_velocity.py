@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.synthesis.limits.motions.standing import Standing
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
 from optlaws.synthesis.limits.phase_torque import PhaseTorque
+from optlaws.synthesis.limits.standing import Standing
 
 _PHASE_TIE = 1e-7  # of a bound or of two torques: nearer values are equal, and the potential says at what price
 _INNER_SHARE = 1e-3  # shares of two equal torques that are so far from 0 and 1 follow from the potential

@@ -26,7 +26,7 @@ from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
 from optlaws.numerics.roots import falling_root
-from optlaws.synthesis.limits.motions.elements import Elements
+from optlaws.synthesis.limits.elements import Elements
 from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.phase_torque import AnyTorque
 from optlaws.tolerances import INTEGRATION
