@@ -21,3 +21,4 @@ from optlaws.explorer.views.cycle_view import CycleRequest, example
 from optlaws.explorer.views.opened_results import OPENED
 from optlaws.explorer.views.panel_data import fact_sentences, panel_data, table_data
 from optlaws.explorer.views.requests import LawRequest, LawsRequest, given_law, law_of, problem_of, solved
+from optlaws.explorer.workers import Workers
