@@ -25,7 +25,7 @@ HANDED_UP = {
     "_leaf_bound": ("optlaws.verification.",),
     "plot": ("optlaws.plots.",),
     "_plot": ("optlaws.plots.",),
-    "export": ("optlaws.exports.", "optlaws.synthesis.proven.fewest_laws"),
+    "export": ("optlaws.exports.", "optlaws.synthesis.proven.refine"),
     "report": ("optlaws.cams.report.", "optlaws.cycles.report.", "optlaws.laws.report.", "optlaws.synthesis.report."),
     "pieces": ("optlaws.exports.",),
     "polynomials": ("optlaws.exports.",),

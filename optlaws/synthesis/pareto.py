@@ -22,7 +22,7 @@ from optlaws.numbers import MOST_VALUES, Array, finite, listed, real, whole
 from optlaws.shown.report import Report, ReportTable, panel_drawing
 from optlaws.shown.steps import Steps
 from optlaws.shown.summary import Row
-from optlaws.synthesis.families.peaks import of_polynomials
+from optlaws.synthesis.families.piece_series import of_polynomials
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.fields import CONSTANTS

@@ -19,7 +19,7 @@ from optlaws.numbers import Array
 from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.arrays.programs import NO_CONTACT, SolvedBatch
-from optlaws.synthesis.families.peaks import by_pieces, constant_of_series
+from optlaws.synthesis.families.piece_series import by_pieces, constant_of_series
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.problem import Problem

@@ -14,8 +14,7 @@ from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, Points, ProductFamily, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.families.names import RowName
-from optlaws.synthesis.families.peaks import peaks
-from optlaws.synthesis.families.piece_series import PieceSeries
+from optlaws.synthesis.families.piece_series import PieceSeries, peaks
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue, OfFormula
 from optlaws.synthesis.least_time import time_search
 from optlaws.synthesis.least_time.least_time import LeastTime

@@ -16,8 +16,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.synthesis.arrays.certification import Certification, certification_of, lower_bounds
-from optlaws.synthesis.arrays.newton_steps import States, Structure, clipped, converged, step, structure_of
+from optlaws.synthesis.arrays.newton_steps import (
+    Certification,
+    States,
+    Structure,
+    certification_of,
+    clipped,
+    converged,
+    lower_bounds,
+    step,
+    structure_of,
+)
 from optlaws.synthesis.arrays.programs import Numbers, Path, SolvedBatch
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.method.exchange import solve

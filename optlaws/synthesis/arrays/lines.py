@@ -19,7 +19,7 @@ from optlaws.synthesis.arrays.continuation import laws_along
 from optlaws.synthesis.arrays.newton_steps import with_one
 from optlaws.synthesis.arrays.programs import Path, SolvedBatch, between, in_units_of, numbers_of
 from optlaws.synthesis.families.family import ProductFamily
-from optlaws.synthesis.families.peaks import by_pieces
+from optlaws.synthesis.families.piece_series import by_pieces
 from optlaws.synthesis.problem.constants import D, RootMeanSquare
 from optlaws.synthesis.problem.expression import Maximum
 from optlaws.synthesis.problem.problem import Problem

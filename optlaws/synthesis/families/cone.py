@@ -13,7 +13,7 @@ from optlaws.formulas.slopes import Slopes
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import product, real_parts_of_roots
 from optlaws.synthesis.families.family import NonlinearFamily, RowJet, SeriesFamily, last_result
-from optlaws.synthesis.families.peaks import peaks, products
+from optlaws.synthesis.families.piece_series import peaks, products
 from optlaws.tolerances import EPSILON, ROW_ROUNDING, TINY
 
 

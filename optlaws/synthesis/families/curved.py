@@ -23,8 +23,7 @@ from optlaws.numerics.panels import candidates
 from optlaws.numerics.roots import sign_changes
 from optlaws.synthesis.families.cone import SumOfSquares, sum_of_squares
 from optlaws.synthesis.families.family import LinearFamily, NonlinearFamily, RowJet, WholeLawFamily, last_result
-from optlaws.synthesis.families.peaks import greatest
-from optlaws.synthesis.families.piece_series import sides_of
+from optlaws.synthesis.families.piece_series import greatest, sides_of
 from optlaws.tolerances import LEAST_ENERGY, ROUNDOFF
 
 _FORMULA_RESOLVED = 1e-13  # of the greatest value: what the last coefficients of a formula along a law leave

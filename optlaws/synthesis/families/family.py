@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import from_values, nodes, product
-from optlaws.synthesis.families.peaks import greatest, power_peaks
-from optlaws.synthesis.families.piece_series import PieceSeries, sides_of
+from optlaws.synthesis.families.piece_series import PieceSeries, greatest, power_peaks, sides_of
 from optlaws.tolerances import AT_END, ROW_ROUNDING
 
 _END_OF_U = 1e-9  # of u: a place so near to the end is the end

@@ -426,7 +426,7 @@ class ProvenFront(JsonText):
         (32, 3072, True)
         """
         from optlaws.exports.front_export import export_front, function_format
-        from optlaws.synthesis.proven.fewest_laws import ChordSelection, proven_ends
+        from optlaws.synthesis.proven.refine import ChordSelection, proven_ends
 
         function_format(to)
         if self.over != RUN_TIME:
