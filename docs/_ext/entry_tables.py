@@ -6,6 +6,7 @@ A new table is a line of `TABLES`, and its mark in the page: `<!-- entries of NA
 from collections.abc import Callable
 from functools import partial
 
+import optlaws.cams.at_shaft  # noqa: F401 - by which the kind "cam" is known
 from optlaws.cams.barrel import Groove
 from optlaws.entries.reference import markdown_table
 from optlaws.jobs.cam_entries import CamProblemFile

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import partial
 from inspect import getdoc
 from typing import TYPE_CHECKING, Any, Literal, get_args, get_origin
@@ -66,6 +67,8 @@ def with_parts(page: str, text: str) -> str:
         if mark not in text:
             raise ValueError(f"{page} has no mark {mark}")
         text = text.replace(mark, made())
+    if left := re.findall(r"<!-- (?:entries|options) of .*? -->", text):
+        raise ValueError(f"{page} has marks of no part: {', '.join(left)}")
     return text
 
 

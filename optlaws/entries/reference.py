@@ -10,7 +10,7 @@ from optlaws.entries.declared import Declared, Entry, TableOf, entries_of
 
 def markdown_table(
     of: type[Declared] | TableOf,
-    heading: str = "what it says",
+    heading: str = "meaning",
     apart: Collection[str] = (),
     without: type[Declared] | None = None,
 ) -> str:
@@ -27,7 +27,7 @@ def markdown_table(
     ... class Door(Declared, title="a door"):
     ...     damper: Damper | None = entry(ValueOf(Damper), "What slows it.", default=None)
     >>> print(markdown_table(Door))
-    | entry | what it says |
+    | entry | meaning |
     |---|---|
     | `damper` | What slows it. A damper, a table. |
     | `damper.damping` | The damping ratio. A number from 0 on; 0.0 unless given. |
