@@ -325,8 +325,10 @@ def as_made(
 class PeaksAsMade(Declared, title="peaks as made"):
     """The files whose executed motion is reported: tables of a number of points and decimals, and profile errors."""
 
-    points: tuple[int, ...] = entry(Listed(POINTS, most=10), "Of tables that the cam is cut by.", default=(361, 721))
-    decimals: tuple[int, ...] = entry(Listed(DECIMALS, most=10), "Of a millimetre in these tables.", default=(3, 4, 6))
+    points: tuple[int, ...] = entry(Listed(POINTS, most=10), "Numbers of points of the tables.", default=(361, 721))
+    decimals: tuple[int, ...] = entry(
+        Listed(DECIMALS, most=10), "Decimals of a millimetre in the tables.", default=(3, 4, 6)
+    )
     curve: str = entry(Choice(*MADE_CURVES), "Of the tables.", default="profile")
     error: NumberOrQuantity | None = entry(
         Measured("length", above=0.0), "Of the profile: the amplitude of its waves.", default=None, example="0.01 mm"

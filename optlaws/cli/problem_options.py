@@ -45,7 +45,7 @@ _OWN: dict[str, dict[str, Any]] = {
     "order": {"about": f"Conditions at each end; {_ORDER} unless given, or as many as --start and --end have."},
     "symmetric": {
         "name": "--unsymmetric",
-        "about": "Seek among unsymmetric laws too.",
+        "about": "Include unsymmetric laws.",
         "read": lambda given: not given,
     },
     "basis": {"type": Literal[tuple(Basis.kinds)]},

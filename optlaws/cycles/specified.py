@@ -111,7 +111,7 @@ class Specification(Declared, title="a stored cycle"):
     )
     limits: Mapping[str, Any] = entry(
         LIMITS_OF_CYCLE,
-        'Of all segments, by optimal laws and by given ones: `{"velocity": "616 mm/s", "power": "400 W"}`, of '
+        'Of all segments, with optimal and with given laws: `{"velocity": "616 mm/s", "power": "400 W"}`, of '
         'derivatives up to the "snap". Of two quantities, as ("-8 m/s^2", "12 m/s^2"), the first is the least value; a '
         '"deceleration" is of moves that slow down. "rms force", "rms torque" and "energy" are of the whole cycle, as '
         'motors are rated; `{"motor": True}` are all those of the motor of a `Drive`.',
@@ -150,8 +150,8 @@ class Specification(Declared, title="a stored cycle"):
     order: int = entry(Whole(2, 10), "Number of end conditions of optimal laws.", default=3)
     degree: int = entry(
         Whole(0, MOST_DEGREE),
-        "Degree of the polynomial Z of optimal laws, at least 15 where a velocity is given at an end; order and degree "
-        "make the laws that are compared: `search_space` says which.",
+        "Degree of the polynomial Z of optimal laws, at least 15 where a velocity is given at an end; `search_space` "
+        "names the set of laws of this order and degree.",
         default=USUAL_DEGREE,
     )
 

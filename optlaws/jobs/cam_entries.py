@@ -62,7 +62,7 @@ class CamOfMotion(ProblemFile, title="a cam"):
     turning: Turning = entry(Choice(*TURNINGS), "How the cam turns.", default="counterclockwise")
     cutter_radius: str | None = entry(
         _LENGTH,
-        "Of the cutter or grinding wheel, whose path is part of the table then.",
+        "Radius of the cutter or grinding wheel, whose path is then part of the table.",
         default=None,
         label="cutter",
         example="10 mm",
@@ -92,7 +92,7 @@ class CamProblemFile(CamOfMotion, title="a cam"):
     prime_radius: str | None = entry(
         _LENGTH,
         "Radius of the prime circle, from the cam's centre to the roller's, or to the face, where the follower is "
-        "lowest; without one the least that keeps pressure_angle and radius_of_curvature is taken, or what best finds.",
+        "lowest; unless given the least within pressure_angle and radius_of_curvature, or the result of best.",
         default=None,
         label="prime circle",
         example="60 mm",
@@ -111,8 +111,7 @@ class CamProblemFile(CamOfMotion, title="a cam"):
     pair: ReturnFollower | None = entry(ValueOf(ReturnFollower), "A return cam.", default=None)
     process: Any = entry(
         ValueOf(ProcessEntries),
-        "A process force on the follower: in forces and spring, and where they are of the drive in what the motion "
-        "minimises and limits.",
+        "A process force on the follower. It counts in forces and spring, and in objectives and limits of the drive.",
         default=None,
     )
     forces: CamForcesEntries | None = entry(
@@ -125,7 +124,11 @@ class CamProblemFile(CamOfMotion, title="a cam"):
     spring_sought: bool = entry(
         Switch(), "Whether the spring of the drive was sought with the laws.", default=False, shown=False
     )
-    as_made: PeaksAsMade | None = entry(ValueOf(PeaksAsMade), "Peaks as made.", default=None)
+    as_made: PeaksAsMade | None = entry(
+        ValueOf(PeaksAsMade),
+        "The peaks of the motion on a cam that is cut by tables of few points and digits.",
+        default=None,
+    )
     file: tuple[CutFile, ...] = entry(Listed(ValueOf(CutFile), most=50), "Files that cut the cam.", default=())
     animation: bool = entry(Switch(), "Whether animation.svg is written, in which the cam turns.", default=False)
 

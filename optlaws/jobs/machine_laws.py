@@ -173,7 +173,7 @@ class MachineLawsProblemFile(ProblemFile, title="a problem file"):
         Listed(Text(), least=1, most=8), "Names of the catalogue.", example=["modified sine"]
     )
     sought: tuple[Sought, ...] = entry(
-        Listed(ValueOf(Sought), least=1, most=8, each="sought", named=True), "The laws that are sought."
+        Listed(ValueOf(Sought), least=1, most=8, each="sought", named=True), "The optimal laws."
     )
     figure: Pictured = entry(ValueOf(Pictured), "What is drawn.")
     units: Mapping[str, str] = entry(

@@ -80,8 +80,8 @@ class SolutionsProblemFile(ProblemFile, title="a problem file"):
         "Tables of lists that go together, each of one length; the last table varies fastest.",
         example=[{"B": [1.6, 1.8, "free"]}],
     )
-    bound: Bound = entry(Choice("quick", "tight"), "That of `synthesize`.", default="quick")
-    method: Method = entry(Choice("auto", "ipopt"), "That of `synthesize`.", default="auto")
+    bound: Bound = entry(Choice("quick", "tight"), "The argument of `synthesize`.", default="quick")
+    method: Method = entry(Choice("auto", "ipopt"), "The argument of `synthesize`.", default="auto")
     columns: tuple[str, ...] = entry(
         _NAMES, "Constants of the law, or of what was found.", default=(*CONSTANTS, *tuple(RESULTS)[1:])
     )

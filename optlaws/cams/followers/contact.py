@@ -87,7 +87,7 @@ class Friction(Declared, title="friction"):
 
     contact: float = entry(
         Number(least=0.0),
-        "The coefficient between a face and the cam, or what a rolling roller and its pin take at its surface.",
+        "The coefficient between a face and the cam, or of a rolling roller with its pin, at its surface.",
         default=0.0,
         label="friction",
         example=0.05,

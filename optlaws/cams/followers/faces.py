@@ -214,8 +214,8 @@ class InclinedFlat(FlatFollower, kind="inclined flat"):
 
     inclination: NumberOrQuantity = entry(
         Measured("angle"),
-        "Between the face and the square of the way, above 0 where the face rises to the side to which the cam's top "
-        "moves when it turns clockwise; less than 90 deg.",
+        "Between the face and the perpendicular to the slide, above 0 where the face rises to the side to which the "
+        "top of a cam moves that turns clockwise; less than 90 deg.",
         example="10 deg",
     )
     axis: ClassVar[str] = "length"

@@ -156,8 +156,8 @@ class TranslatingRoller(CamFollower, kind="translating roller"):
     radius: NumberOrQuantity = entry(Measured("length", above=0.0), "Radius of the roller.", example="12 mm")
     offset: NumberOrQuantity = entry(
         Measured("length"),
-        "Distance of the slide's way from the cam's centre; above 0 on the side to which the cam's top moves when it "
-        "turns clockwise, so that with a cam that turns counterclockwise it lessens the pressure angle of the rise.",
+        "Distance of the slide's line from the cam's centre, above 0 on the side to which the top of a cam moves that "
+        "turns clockwise. If the cam turns counterclockwise, it then reduces the pressure angle of the rise.",
         default="0 mm",
     )
     axis: ClassVar[str] = "length"

@@ -67,8 +67,8 @@ def cycle(
         file of --export; otherwise where you are.
     fastest
         The greatest speed of the master at which every axis keeps its limits, what binds there, and the proof: a table,
-        and with `--out` all results at that speed with fastest.json for `optlaws verify`. The exit code is 1 where none
-        faster is not proven to be impossible.
+        and with `--out` all results at that speed with fastest.json for `optlaws verify`. The exit code is 1 where a
+        greater speed is not proven to be impossible.
     speed
         Speed of the master, such as "200 rpm"; what the file says unless given. --save and --export need it where the
         master is an angle.

@@ -65,7 +65,7 @@ def export(
     to
         The format; --list shows all formats, and with --to what one of them holds.
     listed
-        List the formats: who takes them, how it interpolates, what it cannot hold.
+        List the formats with their controllers, interpolations and restrictions.
     axis
         Which axis of a problem file with several.
     task

@@ -314,11 +314,11 @@ class FrontOverTime(Declared, title="a front"):
     )
     longest: NumberOrQuantity | None = entry(
         Measured("time", above=0.0),
-        "The longest time; unless given twice the least, or of a vibration in a file the first without.",
+        "The longest time; unless given twice the least, or in a file the first time without residual vibration.",
         default=None,
         example="0.3 s",
     )
-    points: int = entry(_POINTS, "How many there are, each the same share longer than the last.", default=17)
+    points: int = entry(_POINTS, "How many points; the times are a geometric sequence.", default=17)
 
     def _check(self) -> None:
         if len(set(self.minimise)) < len(self.minimise):
@@ -397,7 +397,7 @@ def time_front(
 
 
 def front_of_cycle(cycle: Any, minimise: str, *, follower: Any, **options: Any) -> TimeFront:
-    """The front over the time of a cycle of one move, which a `Cycle` hands on; its limits are those of the move."""
+    """The front over the time of a cycle of one move, within the limits of the move."""
     given, axis = cycle.segments[0], cycle.axis
     if len(cycle.segments) > 1 or not isinstance(given, Move) or not is_optimal(given):
         raise InputError("a front over the time is that of a cycle of one move whose law is optimal")

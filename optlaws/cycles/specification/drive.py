@@ -108,9 +108,13 @@ _AXES = {force: axis for axis, force in FORCES.items()}
 class ProcessEntries(Declared, title="a process"):
     """The force or the torque of a process, above 0 where it pushes to greater positions, and what it is over."""
 
-    force: Any = entry(OverPlace(_PLACES), "On what slides.", default=None, example=[["0 s", "0 N"], ["0.1 s", "-9 N"]])
-    torque: Any = entry(OverPlace(_PLACES), "On what turns, in its place.", default=None, example="2 N m")
-    over: str = entry(Choice("time", "master", "driven"), "What it is over, and formulas are of.", default="time")
+    force: Any = entry(
+        OverPlace(_PLACES), "The force on a slide.", default=None, example=[["0 s", "0 N"], ["0.1 s", "-9 N"]]
+    )
+    torque: Any = entry(
+        OverPlace(_PLACES), "The torque on what turns, in place of a force.", default=None, example="2 N m"
+    )
+    over: str = entry(Choice("time", "master", "driven"), "The argument of tables and formulas.", default="time")
     interpolation: TableKind = entry(
         Choice(*JOINED),
         "Of tables: straight lines, or a smooth curve of their shape.",
@@ -137,7 +141,7 @@ class MachineProcess(ProcessEntries):
     """A process on a mechanism, at its input or at a driven link."""
 
     over: str = entry(
-        Choice("time", "master", "driven", "input"), "What it is over, and formulas are of.", default="time"
+        Choice("time", "master", "driven", "input"), "The argument of tables and formulas.", default="time"
     )
     on: str | None = entry(
         Text(), "The driven link on which it acts; the input itself unless given.", default=None, example="slider"

@@ -82,7 +82,10 @@ _OF_MOVE = {
     "torque": _limit("At its motor.", "torque", example="6 N m"),
     "rms torque": _limit("At its motor, over the move.", "torque", example="2 N m"),
     "residual acceleration": _limit(
-        "The amplitude that its follower vibrates on with.", "acceleration", "angular acceleration", example="0.5 m/s^2"
+        "The amplitude of its follower's residual vibration, as an acceleration.",
+        "acceleration",
+        "angular acceleration",
+        example="0.5 m/s^2",
     ),
     "residual displacement": _limit("The same as a displacement, such as sway.", "length", "angle", example="20 mm"),
 }

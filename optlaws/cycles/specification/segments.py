@@ -33,8 +33,8 @@ def _read_law(value: Any) -> MotionLaw:
 _FROM_TO = Listed(Measured("angle", "time", least=0.0), least=2, most=2)
 _DURATION = Either(Measured("angle", "time", above=0.0), _FROM_TO, which=is_list)
 _HOW_LONG = (
-    "An angle of the master or a time; of two it is free between them, and left out it is what is left of the cycle if "
-    "one segment alone is free, else what is best."
+    "An angle of the master or a time; two are the least and the greatest duration. Without it the segment takes the "
+    "rest of the cycle or, if several are without, the best share of it."
 )
 
 
@@ -68,7 +68,7 @@ _LAW = Either(
     which=lambda value: int(not isinstance(value, str)),
 )
 _NAMED = "What tables call it."
-_LIMITED = "Of its motion, in machine units, beside those of the cycle."
+_LIMITED = "Limits of this motion, in addition to those of the cycle."
 _MOVED = "Displacement."
 _REACHED = "Position instead of a displacement."
 
@@ -102,8 +102,8 @@ class Dwell(CycleSegment, kind="dwell"):
     duration: Quantity | Sequence[Quantity] | None = entry(_REST, _HOW_LONG, default=None, example="120 deg")
     least: Quantity | None = entry(
         Measured("angle", "time", least=0.0),
-        'What `Axes.fastest` and `Axes.least_acceleration` leave of it at least: "0 ms" of one that only waits. All of '
-        "its duration unless given, and nothing where the duration is left out.",
+        'The least duration in `Axes.fastest` and `Axes.least_acceleration`: "0 ms" of a dwell that only waits. Unless '
+        "given its duration, or 0 if it has none.",
         default=None,
         kw_only=True,
         example="0 ms",

@@ -88,7 +88,7 @@ _TABLES: dict[str, dict[str, tuple[ValueType, str | None, str]]] = {
     "interlock": {
         "index": (_STROKE, "45 deg", "How far the table moves while the slide is out of its way."),
         "clear": (_STROKE, "20 mm", "Position from which on the slide is clear of the table."),
-        "within": (_STROKE, "0.5 deg", "How near its places the table is as good as there."),
+        "within": (_STROKE, "0.5 deg", "How far from its stations the table counts as arrived."),
     },
     "fastest, machine": {
         "frequency": (Measured("frequency", above=0.0), "8.5 Hz", "Natural frequency of the elastic load."),

@@ -48,9 +48,9 @@ class Motor(Declared, title="a motor"):
     inertia: SINumber = entry(InSI("moment of inertia", least=0.0), "Of the rotor.", example="3e-4 kg m^2")
     _: KW_ONLY
     rated_torque: SILimit = entry(
-        _TORQUE, "That the root mean square of the torque over a cycle must not exceed.", default=None, example="2 N m"
+        _TORQUE, "The greatest root mean square of the torque over a cycle.", default=None, example="2 N m"
     )
-    peak_torque: SILimit = entry(_TORQUE, "That the torque must not exceed at any time.", default=None, example="6 N m")
+    peak_torque: SILimit = entry(_TORQUE, "The greatest torque at any time.", default=None, example="6 N m")
     greatest_speed: SILimit = entry(
         InSI("angular velocity", above=0.0, absent=inf), "Of the rotor.", default=None, example="3000 rpm"
     )

@@ -106,8 +106,8 @@ class Mechanism(Declared, title="a mechanism"):
 
     inertia_formula: Formula = entry(
         OverPlace("x"),
-        "Of all masses at the input, over its position x in rad or m, in SI units where it is a formula such as "
-        '"0.02 + 0.01*sin(x)^2"; through a table runs a smooth curve.',
+        "Of all masses at the input, over its position x in rad or m; a formula such as "
+        '"0.02 + 0.01*sin(x)^2" is in SI units, and a table is interpolated by a smooth curve.',
         name="inertia",
         example="0.8 kg m^2",
     )

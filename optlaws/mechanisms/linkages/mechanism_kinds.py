@@ -53,7 +53,7 @@ class Body(Declared, title="a body"):
     Body(mass=2.0, centre=(0.1, 0.02), inertia=0.0)
     """
 
-    mass: SINumber = entry(InSI("mass", least=0.0), "How much it is.", default=0.0, example="2 kg")
+    mass: SINumber = entry(InSI("mass", least=0.0), "Its mass.", default=0.0, example="2 kg")
     _: KW_ONLY
     centre: Centre = entry(
         Together(InSI("length"), InSI("length"), names=("along", "across")),

@@ -369,8 +369,8 @@ class Toggle(LinkageKind, kind="toggle"):
     _: KW_ONLY
     direction: SINumber = entry(
         InSI("angle"),
-        "To where the ram goes as the knee is stretched: the angle, counterclockwise, from the direction in which the "
-        "upper link's pivot is seen from the crank's.",
+        "The direction in which the ram moves when the knee is stretched: the angle, counterclockwise, from the line "
+        "from the crank's pivot to the upper link's.",
         default="90 deg",
     )
     bodies: BodiesByLink = entry(

@@ -80,7 +80,7 @@ _ENDS = Field(
         {
             "start": entry(
                 _NUMBERS,
-                "Values of a, b, c, ... at k = 0; rest unless given. They tell the order too.",
+                "Values of a, b, c, ... at k = 0; rest unless given. Their number is the order.",
                 default=None,
                 example=[0, 0.5],
             ),
@@ -165,10 +165,10 @@ class Problem(Declared, title="a problem"):
         example=4,
     )
     basis: Basis = entry(_BASIS, "Basis of Z(k) with its degree.", default=Chebyshev(9))
-    monotone: bool = entry(_SWITCH, "Ask b >= 0 too: no return within the motion.", default=False)
+    monotone: bool = entry(_SWITCH, "Require b >= 0: the motion never turns back.", default=False)
     symmetric: bool = entry(
         _SWITCH,
-        "Ask a(k) + a(1-k) = 1; not of uneven formulas unless given.",
+        "Require a(k) + a(1-k) = 1; unless given not of formulas that differ for a law and its mirror image.",
         default=AsItFits(1),
     )
     B: float | Range | None = entry(
