@@ -153,7 +153,7 @@ class InfeasibleProblem(OptlawsError):  # noqa: N818 - a public name of 1.0
 
 
 class SolverFailure(OptlawsError, RuntimeError):  # noqa: N818 - a public name of 1.0
-    """The solver has no answer that passes its checks, although the problem may have a solution.
+    """The solver found no solution that passes its checks, although the problem may have one.
 
     Parameters
     ----------

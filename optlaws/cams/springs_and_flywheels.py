@@ -63,15 +63,15 @@ class SoughtSpring(Declared, title="a spring"):
     )
     force: Quantity | None = entry(
         Measured("force", "torque"),
-        "What the cam shall press with at least, along the follower's way; 0 unless given.",
+        "The least force of the cam on the follower, in the follower's direction of motion; 0 unless given.",
         default=None,
         example="20 N",
     )
     stiffness: Quantity | None = entry(
-        Measured("stiffness", "torsional stiffness", least=0.0), "Where it is known.", default=None, example="3 N/mm"
+        Measured("stiffness", "torsional stiffness", least=0.0), "A given stiffness.", default=None, example="3 N/mm"
     )
     preload: Quantity | None = entry(
-        Measured("force", "torque", least=0.0), "Where it is known.", default=None, example="60 N"
+        Measured("force", "torque", least=0.0), "A given preload.", default=None, example="60 N"
     )
     greatest: Literal["force", "contact"] = entry(
         Choice(*GREATEST),
@@ -104,10 +104,9 @@ class Spring(PlainNumbers):
         The greatest force at any angle and speed: on the follower along its way, or the contact force, N, where
         `least_spring` had greatest="contact".
     objective
-        What was sought: "preload", "stiffness", "greatest" or "contact".
+        What was minimised: "preload", "stiffness", "greatest" or "contact".
     lower_bound
-        What it cannot be below, to the accuracy of a linear program: the least of springs that do at the angles that
-        bind.
+        The lower bound of the objective, to the accuracy of a linear program: the least for the angles that bind.
     margin
         Proven: along the follower's way the cam presses with at least this force at every angle and speed.
     critical
@@ -129,12 +128,12 @@ class Spring(PlainNumbers):
 
     @property
     def value(self) -> float:
-        """The value of the objective that was sought."""
+        """The value of the objective."""
         return self.greatest if self.objective == CONTACT else float(getattr(self, self.objective))
 
     @property
     def remark(self) -> str:
-        """Why what was sought is 0; empty where the spring needs both stiffness and preload.
+        """Why a stiffness or preload is 0; empty where the spring needs both.
 
         >>> Spring(0.0, 500.0, 500.0, "stiffness", 0.0, 27.0, (92.0, 31.4)).remark
         'no stiffness is needed: the preload alone keeps the follower on the cam at every speed; a real spring has ...'
@@ -165,8 +164,8 @@ def least_spring(
 ) -> Spring:
     """The least spring that keeps the follower on the cam at every speed of a range.
 
-    The spring's preload is sought where its stiffness is given, its stiffness where the preload is, and where neither
-    is, both, so that the greatest force is least; of several such springs the one whose mean force is least. The
+    The least preload is computed for a given stiffness, the least stiffness for a given preload, and without either
+    both, such that the greatest force is least; of several such springs the one whose mean force is least. The
     problem is linear; at each angle the worst speed is known in closed form. Where one of the two is 0, `Spring.remark`
     has the reason.
 

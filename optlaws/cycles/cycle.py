@@ -128,11 +128,11 @@ class CycleAnswers(Answers):
 
 @declared
 class Cycle(CycleAnswers, Specification):
-    """A cycle that repeats: segments and the speed of the master, of which `solve` makes a plan that answers.
+    """A cycle that repeats: segments and the speed of the master; `solve` returns its plan with the best laws.
 
-    Positions are lengths or angles, whichever the first displacement is. What a plan answers a cycle forwards to its
-    plan, which is looked for when it is first needed; between joints that are known the cycle decouples, and each law
-    is proven by itself.
+    Positions are lengths or angles, whichever the first displacement is. A cycle has the attributes of its plan, which
+    is computed when it is first needed. Between joints that are known the cycle decouples, and each law is proven by
+    itself.
 
     Raises
     ------
@@ -155,7 +155,7 @@ class Cycle(CycleAnswers, Specification):
     __repr__ = Specification.__repr__
 
     def solve(self) -> Plan:
-        """The plan with the best laws, which answers everything else; it is looked for once.
+        """The plan with the best laws, computed once.
 
         Raises
         ------
@@ -301,7 +301,7 @@ class Cycle(CycleAnswers, Specification):
 
 @declared
 class Plan(Solved, CycleAnswers, Declared, title="a plan"):
-    """The laws of a cycle in their places, which answer what the cycle asks; `Cycle.solve` looks for the best.
+    """A cycle with its laws; `Cycle.solve` computes the best ones.
 
     Parameters
     ----------

@@ -104,8 +104,8 @@ def _cycle(value: Any) -> Any:
 class FastestCycle(Answers, Declared, title="a fastest cycle"):
     """The greatest speed of the master at which a cycle keeps its limits, as `Cycle.fastest` finds it, and its plan.
 
-    What is read is not sought again: the period is that of the cycle, whose laws keep the limits; that none is less is
-    what `optlaws verify` proves of its `claims`.
+    A stored one is read without a search: the period is that of the cycle, whose laws keep the limits; `optlaws verify`
+    proves by its `claims` that no period is less.
 
     Examples
     --------

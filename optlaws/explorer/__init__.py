@@ -1,1 +1,1 @@
-"""An explorer in the browser: laws, fronts and cycles that follow the hand, over the library's own functions."""
+"""The explorer in the browser: its server, which calls the public functions, and its page."""

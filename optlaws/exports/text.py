@@ -247,7 +247,7 @@ def c_name(name: Any) -> str:
 
 
 def variable_names(names: Iterable[str]) -> dict[str, str]:
-    """Variable names that every target accepts, all different whatever the case of letters.
+    """Variable names that every target accepts, different from each other without regard to case.
 
     >>> variable_names(["weld head", "Weld_head", "string", "2nd table"])
     {'weld head': 'weld_head', 'Weld_head': 'Weld_head_2', 'string': 'Cam_string', '2nd table': 'Cam_2nd_table'}

@@ -55,12 +55,12 @@ class Solution(LawExport, JsonText):
     peak_certificate
         Where a peak is bounded from below and a tight bound was requested: the proof that no place is better.
     drive_limit
-        Of a drive's torque or energy that is not convex, where laws must not turn back: what none of them can beat.
+        Of a drive's torque or energy that is not convex: its lower bound for all laws that never turn back.
     lower_bound
         The best proven lower bound of the objective over all laws of the problem, with its order, basis, bounds and
         windows: a certificate's or `best_possible`.
     best_possible
-        What no law of the problem's order and within its bounds can beat, whatever its degree: a closed form. None
+        A lower bound for laws of the problem's order and within its bounds, of any degree: a closed form. None
         where none is known, as for ends other than rest.
     status, iterations, seconds
         How it went: iterations of the solver on points (0 where a neighbour's contacts led to the law) and the wall

@@ -52,8 +52,8 @@ def synthesize(
         What to solve.
     start
         A solution of a neighbouring problem (the same but for numbers): its contacts are continued by Newton's
-        method, and programs on points are solved only where that fails. Where the problem is convex the answer is the
-        same.
+        method, and programs on points are solved only where that fails. Where the problem is convex the solution is
+        the same.
     bound
         How to bound a problem that is not convex, with D or a loader in it or a peak bounded from below: "quick", or
         "tight" by a search over all laws, or over all places of the peak, which takes from a tenth of a second to some

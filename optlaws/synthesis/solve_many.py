@@ -308,9 +308,9 @@ def synthesize_many(
 ) -> Iterator[Solution] | Iterator[Result]:
     """Solve many problems, those that differ in numbers together, and give their solutions in order.
 
-    Each is what `synthesize` gives for its problem, whatever the others are and however many. Problems are taken some
-    thousand at a time and no more are in memory, so that a million stream through; where each depends on the solution
-    before it, use `sweep`. For arrays instead of solutions see `synthesize_array`.
+    Each is what `synthesize` returns for its problem, independently of the others. Problems are read and solved some
+    thousand at a time, so that a million need no more memory; where each depends on the solution before it, use
+    `sweep`. For arrays instead of solutions see `synthesize_array`.
 
     Parameters
     ----------
@@ -319,8 +319,8 @@ def synthesize_many(
     bound
         As of `synthesize`.
     errors
-        What becomes of a problem without an answer: "raise" raises its error in its turn and ends, "return" gives
-        the error in its place and goes on.
+        "raise" raises the error of a problem without a solution in its turn and ends, "return" yields the error in
+        place of the solution and continues.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The answer to "which law?": laws of a move or a cycle side by side, the front, and the recommended law."""
+"""Advice on the law of a move or a cycle: laws side by side, the front, and the recommended law."""
 
 from __future__ import annotations
 

@@ -99,7 +99,7 @@ class Axes(AxesAnswers, Declared, title="stored axes"):
             interlock.check(cycles)
 
     def solve(self) -> Axes:
-        """The axes themselves, which answer."""
+        """The axes themselves, which are solved."""
         return self
 
     @property
@@ -288,7 +288,7 @@ def _stored(axes: Axes) -> dict[str, Any]:
 class Overlap(AxesAnswers, Declared, title="axes that overlap"):
     """The plan of axes with the best overlap of the search, and the bound that no other overlap passes.
 
-    It answers what its `axes` answer, and is stored with the machine that was given.
+    It has the attributes of its `axes`, and is stored with the machine that was given.
 
     Examples
     --------
@@ -478,7 +478,7 @@ class Overlap(AxesAnswers, Declared, title="axes that overlap"):
         return moves
 
     def again(self) -> Overlap:
-        """The overlap of the given machine, sought once more."""
+        """The overlap of the given machine, computed again."""
         return _overlapped(self.given, self.goal, self.of)
 
     def __repr__(self) -> str:

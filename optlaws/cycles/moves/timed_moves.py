@@ -134,7 +134,7 @@ def fastest_moves(
     problem, limits, start_velocity, end_velocity, drive, start, follower
         As `fastest` takes them; all moves begin at one position of the mechanism.
     strokes
-        How far, all lengths or all angles; the answers are in their order.
+        Strokes, all lengths or all angles; the moves are in their order.
 
     Raises
     ------
