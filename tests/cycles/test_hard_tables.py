@@ -45,6 +45,29 @@ def test_rows_of_fewer_decimals_have_more_noise() -> None:
     is_read(table, 3.0)
 
 
+@pytest.mark.sample(3)
+@pytest.mark.parametrize("averaged", [3, 5, 9])
+@pytest.mark.parametrize("seed", range(4))
+def test_noise_that_a_moving_mean_has_smoothed_is_no_motion(averaged: int, seed: int) -> None:
+    x = np.linspace(0.0, 360.0, 721)
+    rough = up_and_down(x[:-1]) + np.random.default_rng(seed).normal(0.0, 6e-3, 720)
+    means = np.mean([np.roll(rough, away - averaged // 2) for away in range(averaged)], axis=0)
+    table = split_table(x, np.round(np.append(means, means[0]), 4))
+    assert abs(table.averaged - averaged) <= 1
+    assert table.scatter == pytest.approx(6e-3 / averaged**0.5, rel=0.25)
+    assert f"as moving means of {table.averaged} do" in str(table)
+    is_read(table, 6.0)
+
+
+@pytest.mark.sample(4)
+@pytest.mark.parametrize("seed", range(8))
+def test_independent_noise_is_not_taken_for_smoothed(seed: int) -> None:
+    x = np.linspace(0.0, 360.0, 361)
+    table = split_table(x, np.round(up_and_down(x) + np.random.default_rng(seed).normal(0.0, 3e-3, 361), 4))
+    assert table.averaged == 1
+    assert "moving means" not in str(table)
+
+
 @pytest.mark.sample(6)
 @pytest.mark.parametrize("rows", [2, 3, 4])
 @pytest.mark.parametrize("first", [70, 250, 330, 520])

@@ -76,6 +76,9 @@ class Samples:
         The standard deviation of noise and rounding of each height, shape (n,).
     suspects
         Whether a point may be far off the motion, shape (n,).
+    averaged
+        How many rows the noise is a moving mean of, where it was smoothed: it is as uncertain as independent noise of
+        `noise`, and each row scatters by as much over the root of these.
     """
 
     places: Array
@@ -83,11 +86,13 @@ class Samples:
     digit: float
     noise: Array
     suspects: Mask
+    averaged: int = 1
 
     def without(self, rows: Mask) -> Samples:
         """The samples less some rows."""
         others = ~rows
-        return Samples(self.places[others], self.heights[others], self.digit, self.noise[others], self.suspects[others])
+        places, heights, noise = (column[others] for column in (self.places, self.heights, self.noise))
+        return replace(self, places=places, heights=heights, noise=noise, suspects=self.suspects[others])
 
     @property
     def rounded(self) -> bool:
@@ -104,13 +109,14 @@ class Samples:
         rows = np.concatenate([np.arange(row, last), np.arange(row + 1)])
         behind = np.arange(len(rows)) >= last - row
         places = self.places[rows] + behind * np.ptp(self.places)
-        return Samples(places, self.heights[rows] + behind * advance, self.digit, self.noise[rows], self.suspects[rows])
+        heights = self.heights[rows] + behind * advance
+        return Samples(places, heights, self.digit, self.noise[rows], self.suspects[rows], self.averaged)
 
     @property
     def scatter(self) -> float:
         """The standard deviation of the noise where the motion shows it; 0 where rounding explains it."""
-        size, rounding = float(np.median(self.noise[~self.suspects])), self.digit / np.sqrt(12.0)
-        greatest = float(self.noise.max())
+        noise, rounding = self.noise / np.sqrt(self.averaged), self.digit / np.sqrt(12.0)
+        size, greatest = float(np.median(noise[~self.suspects])), float(noise.max())
         size = max(size, greatest if greatest > _BEYOND_ROUNDING * rounding else 0.0)
         return 0.0 if size <= max(_BEYOND_ROUNDING * rounding, 2.0 * LEAST_NOISE * np.ptp(self.heights)) else size
 
@@ -144,7 +150,7 @@ def samples_of(places: Array, heights: Array, digit: float = 0.0) -> Samples:
     if x is places and np.ptp(np.diff(x)) > 1e-6 * np.median(np.diff(x)):
         least = np.hypot(least, _scattered_by_places(x, heights))
     heights = _closed_without_speck(x, heights, max(noise_of(x, heights, computed=not unit), float(least.min())))
-    rests = _rests_exactly(heights)
+    rests = rests_exactly(heights)
     noise = np.full(len(x), noise_of(x, heights, rests, computed=not unit))
     suspects = _far_points(x, heights, np.maximum(noise, least.min()))
     for _ in range(_MOST_ROUNDS):
@@ -390,7 +396,7 @@ def goes_on(places: Array, heights: Array, noise: Array) -> bool:
     return False
 
 
-def _rests_exactly(heights: Array) -> Mask:
+def rests_exactly(heights: Array) -> Mask:
     """Rows within windows of equal heights, as many as no rounding of a motion leaves equal beside unequal ones."""
     width = _FAR_ORDER + 1
     rests = np.zeros(len(heights), dtype=bool)

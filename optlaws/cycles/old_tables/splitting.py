@@ -22,6 +22,7 @@ from optlaws.cycles.old_tables.motion import motion_of
 from optlaws.cycles.old_tables.reading import points_in
 from optlaws.cycles.old_tables.rests_and_lines import NOISE_ROOM
 from optlaws.cycles.old_tables.samples import samples_of
+from optlaws.cycles.old_tables.smoothed_noise import as_independent
 from optlaws.cycles.old_tables.stated_functions import stretches_of_pieces
 from optlaws.cycles.old_tables.stretches import seam_of, stretches_of
 from optlaws.cycles.old_tables.table import OldTable
@@ -267,14 +268,15 @@ def split_table(
     if stroke == 0.0:
         raise InputError("the table never moves: all its positions are the same")
     all_places, all_heights, given = with_rests(places, heights)
-    samples = samples_of(all_places, all_heights, digit)
+    samples = as_independent(samples_of(all_places, all_heights, digit))
     least = max(samples.digit if digit else 0.0, _STANDARD_LAW_ROOM * stroke)
     room = least if tolerance is None else max(not_negative(tolerance, "tolerance"), _STANDARD_LAW_ROOM * stroke)
     scatter = samples.scatter
     if tolerance is not None:
         samples = replace(samples, noise=np.maximum(samples.noise, room / NOISE_ROOM))
     motion = motion_of(samples)
-    if tolerance is None and not samples.rounded and scatter and motion.variance < _LESS_NOISE**2:
+    independent = samples.averaged == 1 and not samples.rounded
+    if tolerance is None and independent and scatter and motion.variance < _LESS_NOISE**2:
         # of few rows with all digits, differences show the motion itself
         samples = samples.with_noise(float(np.sqrt(motion.variance)))
         motion, scatter = motion_of(samples), samples.scatter
@@ -284,7 +286,7 @@ def split_table(
         room = max(room, NOISE_ROOM * scatter)
     table = OldTable(
         tuple(stretches_of(motion)), room, scatter, seam_of(samples.heights[given], room), unit, master,
-        samples.places[given], heights, whole=whole,
+        samples.places[given], heights, whole=whole, averaged=samples.averaged,
     )  # fmt: skip
     left_out = motion.samples.suspects[given] | (samples.heights[given] != heights)
     far = left_out & (np.abs(table.at(table.places) - heights) > room)

@@ -64,6 +64,8 @@ class OldTable:
     waves
         Amplitudes of waves that the points show about the motion, with their numbers by the master in radians; the
         peaks count them.
+    averaged
+        Of how many points the noise is a moving mean, where a filter has smoothed it; the motion is that so smoothed.
 
     Examples
     --------
@@ -88,6 +90,7 @@ class OldTable:
     outliers: tuple[int, ...] = ()
     whole: bool = False
     waves: tuple[tuple[float, float], ...] = ()
+    averaged: int = 1
 
     def cycle(self, *, speed: NumberOrQuantity | None = None, period: NumberOrQuantity | None = None) -> Cycle:
         """The cycle of the table, at a speed or a period; at the speed of the file if neither is given.
@@ -345,7 +348,9 @@ class OldTable:
     @property
     def remarks(self) -> tuple[str, ...]:
         """How near the laws are to the points, what noise these show, and whether the end meets the beginning."""
-        scatter = sentence(", which scatter by {}", Amount(self.scatter, self.unit, 2)) if self.scatter else ""
+        smoothed = f" as moving means of {self.averaged} do" if self.averaged > 1 else ""
+        size = Amount(self.scatter, self.unit, 2)
+        scatter = sentence(", which scatter by {}{}", size, smoothed) if self.scatter else ""
         remarks = [sentence("within {} of the points{}", Amount(self.room, self.unit, 3), scatter)]
         off, place = self.off
         if off > self.room * (1.0 + AGREEMENT):
