@@ -29,8 +29,7 @@ declare(
 declare(
     "segment",
     {
-        "optlaws.laws.segments.fractional": "fractional",
-        "optlaws.laws.segments.constant_power": "power",
+        "optlaws.laws.segments.fractional": "fractional power",
         "optlaws.laws.segments.segment": "polynomial",
         "optlaws.laws.segments.sine": "harmonics sine",
         "optlaws.balancing.dwells.sections": "part",

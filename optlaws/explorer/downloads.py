@@ -30,7 +30,7 @@ from optlaws.files.reading import check_names
 from optlaws.files.tables import to_csv, to_toml
 from optlaws.files.writing import MARK
 from optlaws.jobs.cycle_entries import cycle_of
-from optlaws.laws.values import table_of_values
+from optlaws.laws.report import table_of_values
 
 _ROWS = 361
 _WIDTH = 116

@@ -18,8 +18,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from optlaws.laws import MotionLaw, PolynomialLaw
-from optlaws.laws.segments.constant_power import PowerSegment
-from optlaws.laws.segments.fractional import FractionalSegment
+from optlaws.laws.segments.fractional import FractionalSegment, PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment, Waves
 from optlaws.motion.piece import Piece, factor

@@ -25,9 +25,8 @@ from optlaws.synthesis.proven.swept_parameter import SweptParameter
 from optlaws.tolerances import BOUND_FEASIBILITY, NO_OBJECTIVE, STORED_VALUE
 from optlaws.verification.conditions import Excess, excesses
 from optlaws.verification.enclosing.balls import enclosed
-from optlaws.verification.exact.bound import Along, Proof, prove
+from optlaws.verification.exact.bound import Along, Proof, least_time_of_any_law, prove
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.exact.limits import least_time_of_any_law
 from optlaws.verification.file_entries import NO_FILE, FileEntry, entries, is_entry, kind_of
 from optlaws.verification.machine_results import axes, cam, least_period, of_cycle, overlap_of_axes, plan
 from optlaws.verification.result import (

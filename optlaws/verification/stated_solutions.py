@@ -30,9 +30,8 @@ from optlaws.tolerances import BOUND_FEASIBILITY, COEFFICIENT_ROUNDING, OPTIMALI
 from optlaws.verification.conditions import excesses
 from optlaws.verification.enclosing.balls import at, enclosed, rational
 from optlaws.verification.enclosing.taylor_models import between, least_and_greatest
-from optlaws.verification.exact.bound import Proof, prove
+from optlaws.verification.exact.bound import Proof, exact_limit, prove
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.exact.limits import exact_limit
 from optlaws.verification.exact.rows import NoExactRowsError
 from optlaws.verification.result import (
     Claim,

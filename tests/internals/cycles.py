@@ -25,8 +25,7 @@ from optlaws.cycles.usual_law import usual_cycle
 from optlaws.files import reading
 from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.laws.catalogue.tables.columns import LARGEST_TABLE
-from optlaws.laws.catalogue.tables.curve_pieces import hermite
-from optlaws.laws.catalogue.tables.table_points import TablePoints
+from optlaws.laws.catalogue.tables.curve_pieces import TablePoints, hermite
 from optlaws.synthesis.least_time.timed_move import RATES as OBJECTIVES_OF_MOVES
 
 

@@ -4,9 +4,8 @@ from optlaws.verification.claims import verified
 from optlaws.verification.enclosing.balls import BALLS, ball, enclosed, lower, series_of, upper
 from optlaws.verification.enclosing.space import exact_space
 from optlaws.verification.enclosing.taylor_models import between, integrals, real_roots
-from optlaws.verification.exact.bound import Along, prove
+from optlaws.verification.exact.bound import Along, exact_limit, least_time_of_any_law, prove
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.exact.limits import exact_limit, least_time_of_any_law
 from optlaws.verification.exact.rows import ExactRows
 from optlaws.verification.file_entries import FileEntry, entries
 from optlaws.verification.machines.output_motion import cycle, followed, of_pieces, response

@@ -15,7 +15,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.curve import Sides
-from optlaws.laws.segments.constant_power import PowerSegment
+from optlaws.laws.segments.fractional import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.numbers import Array

@@ -57,7 +57,7 @@ def law(
 
     from optlaws.files import writing
     from optlaws.laws.catalogue import reading
-    from optlaws.laws.values import LETTERS, SAMPLES, table_of_values, values
+    from optlaws.laws.report import LETTERS, SAMPLES, table_of_values, values
 
     if samples is not None and csv is None:
         raise InputError("--samples is the number of lines of --csv FILE: name the file")

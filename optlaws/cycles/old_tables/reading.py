@@ -11,7 +11,7 @@ import numpy as np
 
 from optlaws.errors import InputError, located
 from optlaws.laws.catalogue.tables.columns import ISG, points_of
-from optlaws.laws.catalogue.tables.table_points import TablePoints, TableUnits
+from optlaws.laws.catalogue.tables.curve_pieces import TablePoints, TableUnits
 from optlaws.motion.quantities import either
 
 _WHOLE_TURN = 1e-6  # of a turn: a master without a unit whose length is so near 360, 1 or 2 pi is one turn

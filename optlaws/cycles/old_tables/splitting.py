@@ -31,8 +31,7 @@ from optlaws.errors import InputError, located
 from optlaws.files import reading
 from optlaws.laws.catalogue.tables.columns import LARGEST_TABLE
 from optlaws.laws.catalogue.tables.controller_files import FEWEST_POINTS
-from optlaws.laws.catalogue.tables.curve_pieces import APART, CurvePiece
-from optlaws.laws.catalogue.tables.table_points import TablePoints, TableUnits
+from optlaws.laws.catalogue.tables.curve_pieces import APART, CurvePiece, TablePoints, TableUnits
 from optlaws.motion.quantities import either
 from optlaws.numbers import Array, Quantity, not_negative, numbers
 

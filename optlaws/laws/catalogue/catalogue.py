@@ -62,13 +62,13 @@ class Catalogue(Mapping[str, "CatalogueEntry"]):
 
     @kept_property
     def _by_alias(self) -> dict[str, CatalogueEntry]:
-        from optlaws.laws.catalogue.tyr_codes import canonical
+        from optlaws.laws.catalogue.entry import canonical
 
         entries = self._entries.values()
         return {canonical(name) or plain(name): entry for entry in entries for name in (*entry.aliases, entry.name)}
 
     def __getitem__(self, name: str) -> CatalogueEntry:
-        from optlaws.laws.catalogue.tyr_codes import canonical
+        from optlaws.laws.catalogue.entry import canonical
 
         if not isinstance(name, str):
             raise UnknownLaw(f"the name of a law is text, got {shortened(name)}")

@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.laws.segments.constant_power import PowerSegment
+from optlaws.laws.segments.fractional import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.numbers import MOST_ORDER, MOST_VELOCITY, real, whole

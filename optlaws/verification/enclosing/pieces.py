@@ -8,7 +8,7 @@ from typing import TypeAlias, TypeVar
 
 from flint import acb, arb, arb_series, fmpq, fmpq_poly, fmpz_poly
 
-from optlaws.laws.segments.constant_power import PowerSegment
+from optlaws.laws.segments.fractional import PowerSegment
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.laws.segments.sine import SineSegment
 from optlaws.verification.enclosing.balls import Extremes, ball, rational

@@ -16,7 +16,7 @@ from optlaws.errors import InputError
 from optlaws.formulas.of_motion import MotionFormula
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, PolynomialLaw
-from optlaws.laws.segments.constant_power import PowerSegment
+from optlaws.laws.segments.fractional import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment

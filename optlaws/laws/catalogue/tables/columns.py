@@ -16,8 +16,7 @@ from optlaws.errors import InputError, located
 from optlaws.files import reading
 from optlaws.files.writing import MARK
 from optlaws.laws.catalogue.tables.controller_files import FEWEST_POINTS, decoded
-from optlaws.laws.catalogue.tables.curve_pieces import pieces_between
-from optlaws.laws.catalogue.tables.table_points import TablePoints, TableUnits, resolution_of
+from optlaws.laws.catalogue.tables.curve_pieces import TablePoints, TableUnits, pieces_between, resolution_of
 from optlaws.laws.catalogue.tables.tokens import NUMBER, TextCell, cells_of, no_number, uncommented
 from optlaws.numbers import Array
 
