@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from optlaws import InputError, catalogue, read_cycle_table
-from tests.exports.samples import press
+from tests.exports.samples import GOLDEN, press
 from tests.internals.cycles import points_in, read_points
 from tests.internals.exports import FORMATS, Export
 
@@ -216,12 +216,6 @@ def test_errors_in_xml_name_the_line_of_the_file(layout: str, tmp_path: Path) ->
         read_cycle_table(file)
 
 
-#: rows of a cam profile as a controller's project stores them: (0, 0), (40, 20), (100, 25), slopes 1 and 0 at the ends
-GOLDEN = (
-    "[2,0,0,0,0,1,0,0,1072693248,0,-1080956027,515396076,1059086925,-755914243],"
-    "[2,1078198272,0,1077149696,0,1,0,0,1070176665,-1717986918,-1083933983,1202590845,1055091462,-418679770],"
-    "[2,1079574528,0,1077477376,0,1,0,0,0,0,0,0,0,0]"
-)
 UNUSED = ",[0,0,0,0,0,0,0,0,0,0,0,0,0,0]"
 
 

@@ -7,6 +7,12 @@ from optlaws import Chebyshev, ConstantVelocity, Cycle, Dwell, MotionLaw, Proble
 from tests.internals.motion import Motion, motion_of_law
 
 SAID: dict[str, Any] = {"stroke": "35 mm", "master": "120 deg", "duration": "0.1 s"}
+#: rows of a cam profile as a controller's project stores them: (0, 0), (40, 20), (100, 25), slopes 1 and 0 at the ends
+GOLDEN = (
+    "[2,0,0,0,0,1,0,0,1072693248,0,-1080956027,515396076,1059086925,-755914243],"
+    "[2,1078198272,0,1077149696,0,1,0,0,1070176665,-1717986918,-1083933983,1202590845,1055091462,-418679770],"
+    "[2,1079574528,0,1077477376,0,1,0,0,0,0,0,0,0,0]"
+)
 
 
 @cache

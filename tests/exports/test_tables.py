@@ -26,7 +26,7 @@ from optlaws import (
 )
 from tests.exports import readers
 from tests.exports.interpolations import cubic_spline
-from tests.exports.samples import SAID, one_shot, optimal, press, repeating, shearing, turning
+from tests.exports.samples import GOLDEN, SAID, one_shot, optimal, press, repeating, shearing, turning
 from tests.internals.exports import (
     FORMATS,
     Export,
@@ -41,26 +41,6 @@ from tests.sampling import examples
 
 Array = NDArray[np.float64]
 CLAMPED = ((1, 0.0), (1, 0.0))
-GOLDEN = [
-    [2, 0, 0, 0, 0, 1, 0, 0, 1072693248, 0, -1080956027, 515396076, 1059086925, -755914243],
-    [
-        2,
-        1078198272,
-        0,
-        1077149696,
-        0,
-        1,
-        0,
-        0,
-        1070176665,
-        -1717986918,
-        -1083933983,
-        1202590845,
-        1055091462,
-        -418679770,
-    ],
-    [2, 1079574528, 0, 1077477376, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0],
-]
 READ = {
     "codesys-xyva": readers.codesys_xyva,
     "codesys-xy": readers.codesys_xy,
@@ -147,11 +127,12 @@ def test_the_best_number_of_points_is_chosen(name: str) -> None:
 def test_the_golden_rows_of_rockwell() -> None:
     """A captured CAM_PROFILE: points (0, 0), (40, 20), (100, 25) with the slopes 1 and 0."""
     spline = cubic_spline(np.array([0.0, 40.0, 100.0]), np.array([0.0, 20.0, 25.0]), slopes=(1.0, 0.0))
-    rows = readers.profile_numbers(GOLDEN)
+    stored = json.loads(f"[{GOLDEN}]")
+    rows = readers.profile_numbers(stored)
     read = PiecewiseMotion([row[0] for row in rows], [[row[1] + row[2], *row[3:]] for row in rows[:-1]])
     assert read.breaks == spline.breaks
     np.testing.assert_allclose(read.coefficients, spline.coefficients, rtol=1e-14, atol=0.0)
-    assert profile_rows(read) == GOLDEN
+    assert profile_rows(read) == stored
 
 
 def test_the_default_cam_of_codesys() -> None:
