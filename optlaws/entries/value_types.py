@@ -375,6 +375,8 @@ class Together(ValueType):
     @property
     def words(self) -> str:
         *first, last = (each.words for each in self.of)
+        if first == [last]:
+            return f"a list of two, each {last}"
         return f"a list of {', '.join(first)} and {last}" if first else f"a list of {last}"
 
     def schema(self) -> dict[str, Any]:

@@ -157,7 +157,7 @@ def test_wrong_entries_name_themselves_and_the_remedy() -> None:
         ({"friction": {"contact": -0.1}}, "contact must be at least 0"),
         ({"width": "0 mm"}, "width must be above 0"),
         ({"width": "1 mm", "materials": ("steel", "stee")}, "did you mean 'steel'"),
-        ({"width": "1 mm", "materials": "steel"}, "materials must be a list of steel, .* got 'steel'"),
+        ({"width": "1 mm", "materials": "steel"}, "materials must be a list of two, each steel, .* got 'steel'"),
     ):
         with pytest.raises(InputError, match=match):
             forces("translating roller", **arguments)
@@ -445,7 +445,7 @@ def test_a_damper_is_worst_at_a_speed_between() -> None:
 def test_wrong_springs_say_why() -> None:
     cam = cam_of("translating roller")
     for arguments, match in (
-        ({"speeds": "300 rpm"}, r"speeds must be a list of an angular velocity .* and an angular velocity .*, got"),
+        ({"speeds": "300 rpm"}, r"speeds must be a list of two, each an angular velocity .*, got"),
         ({"speeds": ("300 rpm", "60 rpm")}, "speeds must rise"),
         ({"drive": MASS | {"stiffness": "1 N/mm"}}, "to fix it give stiffness"),
         ({"preload": "-1 N"}, "preload must be at least 0"),

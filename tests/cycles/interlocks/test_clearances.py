@@ -202,7 +202,7 @@ AFTER = {"axis": "x", "position": "100 mm", "of": "z", "above": "30 mm"}
         (lambda: Forbidden("x", "z", BOX[:2]), "corners must be a list of 3 at least, each a list"),
         (lambda: least(Forbidden("x", "z", [("0 mm", "0 mm"), ("1 mm", "1 mm"), ("2 mm", "2 mm")])), "lie on a line"),
         (lambda: least(Forbidden("x", "z", [BOX[0], BOX[2], BOX[1], BOX[3]])), "sides 1 and 3 cross"),
-        (lambda: Synchronous("x", "z", during=("1 s",), within="1 mm/s"), "during must be a list of an angle"),  # type: ignore[arg-type]
+        (lambda: Synchronous("x", "z", during=("1 s",), within="1 mm/s"), "during must be a list of two"),  # type: ignore[arg-type]
         (lambda: least(Synchronous("x", "z", during=("0.2 s", "0.1 s"), within="1 mm/s")), "the earlier one first"),
         (lambda: least(Synchronous("x", "z", during=("0.1 s", "0.2 s"), within="0 mm/s")), "within must be above 0"),
         (lambda: Axes(dict(PAIR), interlocks=[{"kind": "afer"}]), "interlock 1: unknown kind .*; did you mean 'after'"),
