@@ -95,7 +95,7 @@ def test_a_corner_stays_and_the_move_at_it_is_bettered() -> None:
     u = np.arange(361.0) % 180.0 / 2.0
     lift = np.where(u <= 60.0, 3.05 * np.sin(np.pi / 2.0 * u / 60.0), np.where(u < 80.0, 3.05 * (80.0 - u) / 20.0, 0.0))
     old = split_table(np.arange(361.0).tolist(), lift.tolist(), tolerance=0.001)
-    new = old.bettered(0.1)
+    new = old.bettered(0.1, degree=9)
     rises = [part for part in new.moves if part.line is None and part.corner is None]
     assert len(rises) == 2
     for part, was in zip(rises, (part for part in old.moves if part.line is None), strict=True):
@@ -113,12 +113,12 @@ def test_a_corner_between_a_line_and_a_move_is_taken_away_within_the_tolerance_t
     x, law = np.arange(0.0, 360.1, 0.5), catalogue["3-4-5 polynomial"].law
     y = np.clip((x - 30.0) / 20.0, 0.0, 1.0) + 30.0 * law(np.clip((x - 50.0) / 80.0, 0.0, 1.0))
     old = split_table(x, np.round(y - 31.0 * QUINTIC(np.clip((x - 180.0) / 110.0, 0.0, 1.0)), 4), digit=1e-4)
-    small = old.bettered(0.02)
+    small = old.bettered(0.02, degree=9)
     lift = next(part for part in small.moves if part.reason and part.solution is not None)
     assert small.corners == pytest.approx([50.0], abs=1e-2)
     with pytest.raises(InputError, match=r"jumps at 50 deg.* mm none stays"):
         small.cycle(speed="60 rpm")
-    smooth = old.bettered(lift.sufficient_tolerance)
+    smooth = old.bettered(lift.sufficient_tolerance, degree=9)
     assert smooth.corners == ()
     at = np.linspace(0.0, 360.0, 36001)
     assert 0.02 < np.abs(smooth.at(at) - old.at(at)).max() <= lift.sufficient_tolerance * (1.0 + 1e-9)
