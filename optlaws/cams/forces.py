@@ -277,8 +277,8 @@ class CamForces:
 
     def results(self) -> dict[str, Any]:
         """Peaks with their places in degrees, and means, as plain data in SI units."""
-        extremes = {name: _plain(getattr(self, name)) for name in ("contact", "torque")}
-        pressed = {} if self.width is None else {"pressure": _plain(self.pressure)}
+        extremes = {name: plain_extremes(getattr(self, name)) for name in ("contact", "torque")}
+        pressed = {} if self.width is None else {"pressure": plain_extremes(self.pressure)}
         return {
             "speed": self.rate,
             **extremes,
@@ -377,7 +377,8 @@ class CamForces:
             raise InputError(f"the follower cannot follow the cam, so that there is no pressure: {undercut}") from None
 
 
-def _plain(enclosure: Extremes) -> dict[str, float]:
+def plain_extremes(enclosure: Extremes) -> dict[str, float]:
+    """An enclosure as plain data, with its places in degrees."""
     return {
         "least": enclosure.least,
         "least_at": degrees(enclosure.least_at),

@@ -27,6 +27,7 @@ from optlaws.cams.curves.plane_curve import CurveByAngle
 from optlaws.cams.followers.follower import positive
 from optlaws.cams.forces import CamForces, Surfaces
 from optlaws.cams.least_sizes import CamLimits
+from optlaws.cams.pair_forces import PairForces
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.placed import broken_limits
 from optlaws.cycles.usual_law import usual_cycle
@@ -385,7 +386,12 @@ def _coordinates(
 def named_forces(forces: CamForces) -> list[tuple[str, Extremes, str, float]]:
     """Contact force, torque at the shaft and, where the contact has a width, pressure, with units and factors."""
     named = [("contact force", forces.contact, "N", 1.0), ("torque at the shaft", forces.torque, "N m", 1.0)]
-    return named if forces.width is None else [*named, ("Hertz's pressure", forces.pressure, "MPa", 1e-6)]
+    named += [] if forces.width is None else [("Hertz's pressure", forces.pressure, "MPa", 1e-6)]
+    if isinstance(forces, PairForces):
+        named.append(("contact force of the return cam", forces.contact_of_return, "N", 1.0))
+        if forces.width is not None:
+            named.append(("Hertz's pressure of the return cam", forces.pressure_of_return, "MPa", 1e-6))
+    return named
 
 
 def forces_section(forces: CamForces, pressed: str = "") -> Section:
@@ -411,13 +417,23 @@ def forces_section(forces: CamForces, pressed: str = "") -> Section:
             " ",
             [
                 f"Torque at the shaft: RMS {mean_square:.{DIGITS}g} N m, mean {mean:.{DIGITS}g} N m.",
-                *([] if left else ["The follower stays on the cam."]),
+                *([] if left else [_pressing(forces)]),
                 *([pressed] if pressed else []),
                 *([] if forces.width is None else [Surfaces(materials=forces.materials).assumed]),
             ],
         ),
         digits=DIGITS,
     )
+
+
+def _pressing(forces: CamForces) -> str:
+    """Which cam presses its follower, and from where to where."""
+    if not isinstance(forces, PairForces):
+        return "The follower stays on the cam."
+    parts = [f"{degrees(low):.{DIGITS}g} to {degrees(high):.{DIGITS}g} deg" for low, high in forces.pressed_by_return]
+    if not parts:
+        return "The return cam presses its follower nowhere."
+    return f"The return cam presses its follower from {joined(' and from ', parts)}, the other cam elsewhere."
 
 
 def leaves_at(forces: CamForces) -> str:
@@ -437,7 +453,7 @@ def leaves(forces: CamForces) -> str:
     """That the follower lifts off, or that nothing presses it somewhere; blank where it is pressed all over."""
     if forces.lifts_off:
         return "the follower lifts off"
-    pressed = chop(forces.contact.least, forces.contact.peak, FORCE_ROUNDING) > 0.0
+    pressed = isinstance(forces, PairForces) or chop(forces.contact.least, forces.contact.peak, FORCE_ROUNDING) > 0.0
     return "" if pressed else "the follower touches without force"
 
 

@@ -26,6 +26,7 @@ from optlaws.cams.followers.follower import positive
 from optlaws.cams.followers.rollers import TranslatingRoller
 from optlaws.cams.forces import CamForces, Surfaces
 from optlaws.cams.least_sizes import BestOffset, LeastPrimeCircle, best_offset, least_prime_circle
+from optlaws.cams.pair_forces import PairForces
 from optlaws.cams.report import DIGITS
 from optlaws.cams.springs_and_flywheels import Spring, least_spring
 from optlaws.cycles.cycle import Cycle, Plan
@@ -229,7 +230,10 @@ class SoughtCam:
             pressing = {"stiffness": Exact(spring.stiffness, stiffness), "preload": Exact(spring.preload, force)}
             beside["drive"] = {**self._linear_drive, **pressing}
         options = {name: getattr(surfaces, name) for name in entries_of(Surfaces)}
-        return CamForces(self.cam, process=self.spec.process, **options, **beside)
+        options |= {"process": self.spec.process, **beside}
+        if self.second is None:
+            return CamForces(self.cam, **options)
+        return PairForces(self.cam, **options, second=self.second)
 
     @kept_property
     def plan(self) -> Plan:

@@ -22,10 +22,11 @@ from optlaws import (
     Rise,
     TranslatingFlat,
     TranslatingRoller,
+    conjugate_cam,
     least_spring,
 )
 from tests.cams.placed import FOLLOWERS, TURNINGS, cam_of
-from tests.internals.cams import Surfaces
+from tests.internals.cams import PairForces, Surfaces
 from tests.internals.formulas import NUMPY, evaluate, read
 from tests.internals.numerics import Jet
 
@@ -489,3 +490,45 @@ def test_the_greatest_force_is_that_of_a_linear_program(greatest: Any) -> None:
     known: Any = linprog([0.0, 0.0, 1.0], np.vstack([pressed, within]), np.concatenate([low, -high / lever]))
     assert spring.greatest == pytest.approx(known.fun, rel=1e-5)
     assert spring.stiffness == pytest.approx(known.x[1], rel=1e-3)
+
+
+# --- pairs ---
+
+
+@pytest.mark.parametrize("drive", [{"mass": "2 kg"}, {"mass": "2 kg", "stiffness": "1 N/mm", "preload": "5 N"}])
+@pytest.mark.parametrize("law", ["3-4-5", "modified trapezoid"])
+def test_one_cam_of_a_pair_presses_with_what_the_follower_takes(drive: dict[str, str], law: str) -> None:
+    moves = [Rise("40 mm", "100 deg", law=law), Dwell("50 deg"), Return("40 mm", "110 deg", law=law), Dwell()]
+    cam = DiscCam(Cycle(moves, speed="350 rpm"), "70 mm", TranslatingRoller("15 mm", "5 mm"))
+    second = conjugate_cam(cam, distance="220 mm")
+    pair = PairForces(cam, drive=drive, width="15 mm", second=second)
+    taken = np.asarray(CamForces(cam, drive=drive).follower_force(ANGLES))
+    angles = np.where(taken >= 0.0, cam.pressure_angle(ANGLES), second.pressure_angle(ANGLES))
+    np.testing.assert_allclose(pair.contact_force(ANGLES) * np.cos(angles), np.abs(taken), rtol=1e-9, atol=1e-9)
+    # without friction the work is that of the follower, whichever cam does it
+    np.testing.assert_allclose(pair.shaft_torque(ANGLES), taken * cam.displacement(ANGLES, 1), rtol=1e-9, atol=1e-9)
+    of_return = np.abs(taken) / np.cos(angles) * (taken < 0.0)
+    assert pair.contact_of_return.low <= of_return.max() <= pair.contact_of_return.high
+    assert of_return.max() == pytest.approx(pair.contact_of_return.most, rel=2e-3)
+    assert pair.contact.least >= -1e-6
+    assert not pair.lifts_off
+    pressed = [(low <= ANGLES) & (high >= ANGLES) for low, high in pair.pressed_by_return]
+    np.testing.assert_array_equal(np.any(pressed, axis=0), taken < -1e-9)
+    # a roller of 15 mm, and the pitch curve's curvature of the return cam
+    curvature = 1.0 / np.asarray(second.radius_of_curvature(ANGLES))
+    squared = of_return * (curvature + 1.0 / 15e-3) * 210e9 / (2.0 * (1.0 - 0.09)) / (pi * 15e-3)
+    assert np.sqrt(squared.max()) == pytest.approx(pair.pressure_of_return.most, rel=2e-3)
+
+
+def test_friction_of_a_pair_takes_power_on_both_cams() -> None:
+    moves = [Rise("40 mm", "100 deg", law="3-4-5"), Dwell("50 deg"), Return("40 mm", "110 deg", law="3-4-5"), Dwell()]
+    cam = DiscCam(Cycle(moves, speed="350 rpm"), "70 mm", TranslatingRoller("15 mm"))
+    pair = PairForces(
+        cam, drive={"mass": "2 kg"}, friction={"contact": 0.1}, second=conjugate_cam(cam, distance="220 mm")
+    )
+    smooth = PairForces(cam, drive={"mass": "2 kg"}, second=conjugate_cam(cam, distance="220 mm"))
+    more = np.asarray(pair.shaft_torque(ANGLES)) - np.asarray(smooth.shaft_torque(ANGLES))
+    assert more.min() > -1e-9
+    for low, high in pair.pressed_by_return:
+        assert np.interp(np.linspace(low, high, 9)[1:-1], ANGLES, more).max() > 0.1
+    assert pair.mean_torque[0] > 0.1

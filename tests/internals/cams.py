@@ -12,5 +12,6 @@ from optlaws.cams.followers.faces import FaceContact
 from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.followers.rollers import RollerContact, SlidingRoller, SwingingRoller
 from optlaws.cams.forces import Surfaces
+from optlaws.cams.pair_forces import PairForces
 from optlaws.cams.report import barrel_differences
 from optlaws.cams.roller_curvature import curvature_of

@@ -14,7 +14,7 @@ from math import comb
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from optlaws.cycles.old_tables.samples import MEDIAN, Samples, rests_exactly
+from optlaws.cycles.old_tables.samples import LEAST_NOISE, MEDIAN, Samples, rests_exactly
 from optlaws.numbers import Array
 
 #: by how much even steps differ, of their median; and rows that tell smoothed noise from other noise, at least
@@ -50,7 +50,8 @@ def as_independent(samples: Samples) -> Samples:
         by_order = _sizes(samples, stride)
         if len(by_order) == len(_ORDERS) and max(by_order) < _WHITE * min(by_order):
             sizes[stride] = float(np.median(by_order))
-    if not {1, 2, 3} <= sizes.keys() or sizes[1] < samples.digit:
+    least = max(samples.digit, LEAST_NOISE * float(np.ptp(samples.heights)))
+    if not {1, 2, 3} <= sizes.keys() or sizes[1] < least:
         return samples
     fits = {rows: _fit(sizes, rows) for rows in range(1, min(_MOST, max(sizes)) + 1)}
     rows = min(fits, key=lambda each: fits[each][0])

@@ -279,6 +279,17 @@ def test_a_pair_has_its_second_cam_in_table_picture_and_files(tmp_path: Path) ->
     assert "[return-cam.nc]" in page
 
 
+def test_the_return_cam_of_a_pair_presses_where_the_first_does_not(tmp_path: Path) -> None:
+    text = PAIR.replace("[pair]", '[forces]\nwidth = "20 mm"\n[pair]')
+    page, reply, _ = done(tmp_path, text.replace("degree = 5", 'drive = { mass = "2 kg" }'))
+    assert "lifts off" not in page
+    assert "The return cam presses its follower from" in page
+    assert "| Hertz's pressure of the return cam" in page
+    assert reply["forces"]["return_contact"]["most"] > 0.0
+    assert not reply["forces"]["lifts_off"]
+    assert not [claim for each in verify_all(tmp_path / "out" / "cam.json").values() for claim in each.unchecked]
+
+
 def test_a_barrel_has_its_flanks_tabled(tmp_path: Path) -> None:
     page, reply, written = done(tmp_path, 'cutter_radius = "5 mm"\n' + BARREL)
     assert re.search(r"\| least acceleration +\| [\d.]+ +\| [\d.]+ +\| m/s² +\| optimal", page)
