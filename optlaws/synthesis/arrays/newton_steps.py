@@ -70,20 +70,9 @@ class Structure:
         return np.array([family.slack for family in program.families]).reshape(-1, program.size)
 
     @kept_property
-    def domains(self) -> Array:
-        """The least and the greatest place of each contact's row."""
-        families = self.model.program.families
-        return np.array([families[i].domain for i in self.family]).reshape(-1, 2)
-
-    @kept_property
     def moving(self) -> NDArray[np.intp]:
         """A mask of the contacts that may move."""
         return np.flatnonzero(self.free)
-
-    @kept_property
-    def at_end(self) -> NDArray[np.bool_]:
-        """A mask of contacts fixed at an end of the interval off which they could move."""
-        return np.asarray(~self.free & (self.domains[:, 0] != self.domains[:, 1]))
 
     def rounding_errors(self, x: Array, u: Array, weights: Array) -> Array:
         """Rounding bounds of each entry of the sum of weights times rows, (laws, variables + 1)."""
@@ -277,7 +266,8 @@ def converged(structure: Structure, numbers: Numbers, states: States) -> tuple[S
 
 def clipped(structure: Structure, states: States) -> States:
     """The states with the places that rounding took out of their domain put on its end."""
-    low, high = structure.domains.T
+    families = structure.model.program.families
+    low, high = np.array([families[i].domain for i in structure.family]).reshape(-1, 2).T
     return replace(states, u=np.minimum(np.maximum(states.u, low), high))
 
 
@@ -346,7 +336,6 @@ _SHARP_GAP = 5e-12  # of an objective: a bound that leaves more is computed more
 _CURVED_GAP = 9e-11  # of an objective: what the bound of a proven law of curved rows may leave
 _GREAT_MULTIPLIERS = 1e-9  # of an objective: what rounding may leave of it where multipliers are great
 _CERTIFIED_PULL = 1e-12  # of the greatest multiplier: by so much one may be below 0, for which the bound counts it as 0
-_INWARD = 0.25  # of a domain: how far inward the slope of a row at an end counts
 _SMALL_OBJECTIVE = 1e-6  # of an objective's scale: one that is less is measured by that
 
 
@@ -386,15 +375,12 @@ class Certification:
 def certification_of(path: Path, structure: Structure, numbers: Numbers, states: States) -> Certification:
     """Certification of states of one structure; NaN and infinities are no laws."""
     program, families = path.model.program, batch_families(path.model)
-    value, slope, _ = structure.jets(states.x, states.u)
+    value, _, _ = structure.jets(states.x, states.u)
     value[:, :, :-1] -= structure.slack
     point = with_one(states.x)
     residual = product(value, point) - numbers.bounds[:, structure.family]
     room = states.x @ structure.slacks.T + numbers.bounds
-    # where a row grows inward from a contact at its end the contact is to move, however little it is broken
-    ways = np.where(states.u >= structure.domains[:, 1], -1.0, 1.0)
-    inward = product(slope, point) * np.where(structure.at_end, ways, 0.0)
-    broken = np.maximum(residual, _INWARD * inward) / np.maximum(1.0, np.abs(room))[:, structure.family]
+    broken = residual / np.maximum(1.0, np.abs(room))[:, structure.family]
     off = np.abs(states.x @ program.equalities.T - numbers.right)
     worst = np.maximum(broken.max(axis=1, initial=0.0), off.max(axis=1, initial=0.0))
     greatest = np.abs(states.weights).max(axis=1, initial=0.0)
