@@ -55,11 +55,6 @@ class ActiveSet:
             multipliers=self.multipliers[contacts],
         )
 
-    def moved(self, contact: int, u: float) -> ActiveSet:
-        """The active set with one contact released from its end and moved to u."""
-        here = np.arange(len(self.u)) == contact
-        return replace(self, u=np.where(here, u, self.u), free=self.free | here)
-
     def joined(self, family: int, u: float, s: float, *, free: bool) -> ActiveSet:
         """The active set with one more contact, whose multiplier is 0."""
         return replace(

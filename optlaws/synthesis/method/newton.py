@@ -332,10 +332,7 @@ def settled(program: Program, state: ActiveSet) -> ActiveSet:
 
 
 def completed(program: Program, state: ActiveSet) -> ActiveSet:
-    """Add the extrema that stick out by more than EXCESS of the right side; the same object if none does.
-
-    Where the nearest contact is pinned to an end, its residual grows inward and it is let go instead.
-    """
+    """Add the extrema that stick out by more than EXCESS of the right side; the same object if none does."""
     better = state
     for i, family in enumerate(program.families):
         if family.as_equation:
@@ -345,12 +342,8 @@ def completed(program: Program, state: ActiveSet) -> ActiveSet:
             alike = (better.family == i) & (better.s == s[j])
             if np.any(alike & (np.abs(better.u - u[j]) < SAME_PLACE)):
                 continue
-            pinned = np.flatnonzero(alike & ~better.free)
-            if len(pinned):
-                better = better.moved(int(pinned[0]), float(u[j]))
-            else:
-                free = bool(family.movable(u[j : j + 1])[0])
-                better = better.joined(i, float(u[j]), float(s[j]), free=free)
+            free = bool(family.movable(u[j : j + 1])[0])
+            better = better.joined(i, float(u[j]), float(s[j]), free=free)
     return better
 
 
