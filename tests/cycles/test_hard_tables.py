@@ -38,6 +38,7 @@ def test_a_worn_flank_has_noise_of_its_own(worn: float) -> None:
     is_read(table, 4.0)
 
 
+@pytest.mark.long
 def test_rows_of_fewer_decimals_have_more_noise() -> None:
     x = np.concatenate([np.arange(0.0, 180.0, 1.0), np.arange(180.0, 360.2, 0.5)])
     table = split_table(x, np.where(x < 180.0, np.round(up_and_down(x), 2), np.round(up_and_down(x), 3)), digit=1e-3)
@@ -142,7 +143,7 @@ def test_few_exact_rows_are_all_of_the_motion_and_it_goes_through_them(step: flo
     assert np.abs(table.at(fine) - motion(fine)).max() < 2e-4 + 0.05 * np.abs(bends).max() * step**2
 
 
-@pytest.mark.sample(3)
+@pytest.mark.long
 @pytest.mark.parametrize(("rows", "noise"), [(361, 1e-3), (361, 1e-2), (1441, 5e-3)])
 def test_the_velocity_of_circular_arcs_is_within_its_interval(rows: int, noise: float) -> None:
     """A flat follower on arcs of 18, 64 and 3 mm about it is quickest where the flank meets the nose, at a kink.
@@ -164,7 +165,7 @@ def test_the_velocity_of_circular_arcs_is_within_its_interval(rows: int, noise: 
     assert table.peaks[0].high < 1.15 * velocity
 
 
-@pytest.mark.sample(2)
+@pytest.mark.long
 @pytest.mark.parametrize("row", [66, 176])
 def test_rows_that_are_swapped_do_not_bend_the_motion(row: int) -> None:
     """Two true rows beside them were left out, and joints between others bent the motion by 0.6 and 1.05 mm."""
@@ -175,6 +176,7 @@ def test_rows_that_are_swapped_do_not_bend_the_motion(row: int) -> None:
     assert np.abs(split_table(x, y, digit=1e-4).at(fine) - motion(fine)).max() < 0.3
 
 
+@pytest.mark.long
 def test_lines_that_end_in_one_row_without_a_corner_are_read() -> None:
     """No spline goes through one row between lines; one was looked for, and scipy raised an IndexError."""
     cam = simulated_cam(419)

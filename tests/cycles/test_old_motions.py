@@ -68,7 +68,7 @@ def test_specks_of_dust_are_left_out_and_listed(seed: int) -> None:
     assert np.abs(values).max() * 1e3 / 360**2 == pytest.approx(peak, rel=0.01)
 
 
-@pytest.mark.sample(2)
+@pytest.mark.long
 @pytest.mark.parametrize("seed", [1110, 1119])
 def test_two_specks_of_one_size_beside_each_other_are_both_left_out(seed: int) -> None:
     """In differences the rows beside these stand out more than they do."""
@@ -248,7 +248,7 @@ def test_a_rest_that_meets_a_ramp_of_constant_velocity_at_a_corner_stays(begin: 
     assert table.off[0] <= table.room * (1.0 + 1e-9)
 
 
-@pytest.mark.sample(2)
+@pytest.mark.sample(4)
 @pytest.mark.parametrize(
     ("begin", "lift", "end", "ramp", "name", "noise", "mirrored"),
     [
@@ -290,7 +290,7 @@ def test_a_ramp_of_constant_velocity_ends_where_a_law_from_rest_begins(
     assert all(0.0 < part.distance <= max(table.room, 4.5 * noise) for part in table.moves)
 
 
-@pytest.mark.sample(2)
+@pytest.mark.long
 @pytest.mark.parametrize("speed", [0.02, 0.012])
 def test_ramps_that_begin_and_end_smoothly_are_found_with_their_blends(speed: float) -> None:
     """A valve whose ramps take 6 deg to begin and to end; rows near the ramps are beside a corner that is none."""
@@ -338,6 +338,7 @@ def test_harmonics_that_turn_before_or_behind_their_lowest_row_move(seed: int) -
     )
 
 
+@pytest.mark.long
 def test_a_jump_of_the_jerk_at_a_steep_place_is_no_corner() -> None:
     """A line that ends smoothly in a crest, behind which a stroke of 116 mm begins: 2 um of noise hide nothing."""
     x = np.linspace(0.0, 360.0, 721)
@@ -465,7 +466,7 @@ def test_a_standard_law_over_the_seam_is_itself_on_both_sides() -> None:
     )
 
 
-@pytest.mark.sample(2)
+@pytest.mark.long
 @pytest.mark.parametrize("seed", [3, 4])
 def test_lifts_between_steep_corners_have_these_where_few_pieces_do_not_show_them(seed: int) -> None:
     """Five pieces fit the lift worse than four, and the corners were looked for with no more."""
@@ -480,7 +481,7 @@ def test_lifts_between_steep_corners_have_these_where_few_pieces_do_not_show_the
     assert table.corners == pytest.approx((75.0, 95.0, 215.0, 235.0), abs=0.2)
 
 
-@pytest.mark.sample(3)
+@pytest.mark.long
 @pytest.mark.parametrize("seed", [1, 2, 5])
 def test_short_parabolas_between_rests_and_ramps_begin_and_end_where_they_do(seed: int) -> None:
     """Splines that begin slowly were as likely, 3 to 9 deg too early, with up to 8 times the acceleration."""
