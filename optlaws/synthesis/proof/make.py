@@ -13,18 +13,15 @@ from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import LinearFamily, NormFamily
-from optlaws.synthesis.families.names import RowName, VariableName, velocity_at_peak
+from optlaws.synthesis.families.names import RowName, VariableName
 from optlaws.synthesis.functionals.sizes import nonnegative_weights
 from optlaws.synthesis.method.discretised.on_points import first_points
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.newton import newton
-from optlaws.synthesis.problem.constants import D
-from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, relaxed, relaxed_power
 from optlaws.synthesis.proof.certificate import OBJECTIVE, RELAXED, VIOLATION, Certificate, weighted_rows
 from optlaws.synthesis.proof.duality import Sublevel, row_of, sum_of_lines
 from optlaws.synthesis.proof.nodes import Contact
-from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.tolerances import EMPTY_ROW, OPTIMALITY_GAP, STATED_BOUND
 
 _LIGHT_SHARES = (1e-13, 1e-12, 1e-11, 1e-10)  # of all multipliers: what each contact has that is there for rounding
@@ -57,10 +54,6 @@ def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | N
     tangent = _needed_root(model, optimum) or float(np.sqrt(objective))
     best: Certificate | None = None
     warm: ActiveSet | None = None
-    plain = _by_the_peak(problem)
-    if plain is not None and limit is not None and problem.objective.terms[0][0] * tangent**2 < limit:
-        # the best law obeys the relaxed program with that square for D: its bound cannot reach the limit
-        return plain
     for _ in range(_TANGENTS):
         loose = relaxed(problem, tangent)
         outcome = solve(loose.program, warm)
@@ -235,20 +228,6 @@ def _leaving(model: Model, optimum: ActiveSet) -> Iterator[Certificate]:
                 state = newton(replace(program, objective=cost), optimum)
                 if state is not None and (state.multipliers >= 0.0).all():
                     yield certificate(model, state, OBJECTIVE)
-
-
-def _by_the_peak(problem: Problem) -> Certificate | None:
-    """D >= B², without a solver: B = b(1/2) <= r, and D >= r² >= 2 t r - t² with t = B."""
-    (weight, term), *others = problem.objective.terms
-    plain = problem.symmetric and problem.boundary is None and isinstance(problem.basis, PolynomialBasis)
-    if others or term != D or not plain or problem.order == 1 or not isinstance(problem.B, float):
-        return None
-    loose = relaxed(problem, problem.B)
-    pull = 2.0 * weight * problem.B
-    contacts = (Contact(RowName.TANGENT, 1.0, 0.0, weight), Contact(RowName.FROM_START, 1.0, 0.5, pull))
-    equations = [0.0] * len(loose.program.right)
-    equations[loose.equation_names.index(velocity_at_peak(0.5))] = -pull
-    return Certificate.of_leaf(problem, contacts, equations, RELAXED, problem.B)
 
 
 def _needed_root(model: Model, optimum: ActiveSet) -> float:
