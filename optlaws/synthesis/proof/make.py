@@ -73,11 +73,6 @@ def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | N
 
 
 def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificate:
-    if abs(objective) <= OPTIMALITY_GAP * model.problem.objective.scale:
-        # constants that are nowhere below 0 say so without a sum, of which rounding would be all that is left
-        plain = Certificate.of_leaf(model.problem)
-        if abs(plain.estimate) <= OPTIMALITY_GAP * model.problem.objective.scale:
-            return plain
     proof = certificate(model, optimum, OBJECTIVE)
     if proof.estimate < objective - STATED_BOUND * abs(objective):
         # a flat optimum may leave more of its multipliers' sum than the bound that is stated may be off
