@@ -9,7 +9,6 @@ from math import ceil, floor
 
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.synthesis.families import names
-from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.method.discretised.on_points import first_points
@@ -19,9 +18,9 @@ from optlaws.synthesis.problem.constants import C, Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model_of
-from optlaws.synthesis.proof.certificate import OBJECTIVE, VIOLATION, Certificate
-from optlaws.synthesis.proof.make import certificate, spread, violation_certificate
-from optlaws.synthesis.proof.no_law import beyond_limit, convex_part, least_of
+from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
+from optlaws.synthesis.proof.make import spread, violation_certificate
+from optlaws.synthesis.proof.no_law import beyond_limit, convex_part
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.bases import Basis, PolynomialBasis
 from optlaws.synthesis.spaces.of_basis import space_of
@@ -74,15 +73,6 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
         tried += f"; the constraints leave {-trial.optimum.x[-1]:.3e} to spare"
     if beyond:
         return InfeasibleProblem(beyond, problem=problem, tried=tried)
-    least = _out_of_reach(problem, elastic)
-    if least is not None:
-        return InfeasibleProblem(
-            f"no law of this problem has {least.problem.minimise} below {least.bound:.6g}, proven by error.proof. A "
-            "higher degree of Z or a lower order helps",
-            problem=problem,
-            proof=least,
-            tried=tried,
-        )
     if falls_for_ever(problem):
         scale = problem.objective.scale
         deep = f"{-_DEPTH:.0f}" if scale == 1.0 else f"{-_DEPTH * scale:g}"
@@ -158,19 +148,6 @@ def _contradiction(proof: Certificate) -> str:
     symbols = dict.fromkeys(symbol for symbol, _, _ in words)
     places = ", ".join(f"{shown} = {', '.join(at for symbol, _, at in words if symbol == shown)}" for shown in symbols)
     return f"the constraints contradict each other at {places}"
-
-
-def _out_of_reach(problem: Problem, elastic: Model) -> Certificate | None:
-    """Proof that an amplitude cannot be as small as prescribed, from its minimum under all other constraints."""
-    cones = {family.name for family in elastic.program.families if isinstance(family, ConeFamily)}
-    for constant, limits in problem.bounds.items():
-        if constant.name in cones:
-            model = model_of(least_of(problem, constant))
-            optimum = solve(model.program).optimum
-            proof = None if optimum is None else certificate(model, optimum, OBJECTIVE)
-            if proof is not None and proof.bound > limits.high:
-                return proof
-    return None
 
 
 def _why(problem: Problem, proof: Certificate, elastic: Model) -> str:
