@@ -44,7 +44,6 @@ _FIRST_STEP = 0.25
 _WORTHY = 0.2
 _FOLLOWED = 4
 _ROOM = 1e3
-_CROWD = 2  # contacts for each variable, of which one determines it
 
 
 def active_lower_bounds(model: Model, optimum: ActiveSet) -> list[ActiveSet]:
@@ -92,7 +91,7 @@ def _raised(model: Model, plain: ActiveSet, constant: Functional, low: float) ->
     raised = replace(family, as_equation=True)
     extrema, signs, height = family.extremes(plain.x)
     led = []
-    for j in np.flatnonzero(height > _WORTHY * height.max()) if _shows_contacts(model.program, plain) else ():
+    for j in np.flatnonzero(height > _WORTHY * height.max()):
         free = _inside(family, float(extrema[j]))
         start = plain.joined(len(model.program.families), float(extrema[j]), float(signs[j]), free=free)
         led.append(_continued(model.program, raised, start, (float(height[j]), low)))
@@ -145,11 +144,6 @@ def _at_fixed_places(
     return ways if program.curved and ways else ways + _stayed(program, ways, stuck)
 
 
-def _shows_contacts(program: Program, state: ActiveSet) -> bool:
-    """Whether a state has contacts that Newton's method can follow; where all points bind, no step leads on."""
-    return len(state.u) <= _CROWD * program.size
-
-
 def _stayed(
     program: Program, ways: list[tuple[Program, ActiveSet]], stuck: list[tuple[float, ConstraintFamily]]
 ) -> list[tuple[Program, ActiveSet]]:
@@ -172,7 +166,7 @@ def _let_go(
 ) -> tuple[Program, ActiveSet] | None:
     """The solution with the peak at the best place nearby; None if Newton's method fails or no place is free."""
     last = state.family == len(program.families)
-    if last.sum() != 1 or not _shows_contacts(program, state):
+    if last.sum() != 1:
         return None
     start = _turned(state, last, free=_inside(family, float(state.u[last][0])))
     moved = polished(_with(program, replace(family, as_equation=True, bound=low)), start, lambda _: False)
