@@ -17,7 +17,7 @@ from optlaws.cycles.placed import Place, broken_limits, limit_rows, overloads
 from optlaws.cycles.specification.limits import FORCE_UNITS, FORCES, LOAD, LimitTaken
 from optlaws.cycles.specification.load import is_process, read_load
 from optlaws.cycles.specified import USUAL_DEGREE
-from optlaws.cycles.usual_law import usual_cycle
+from optlaws.cycles.usual_law import usual_cycle, why_without_usual_law
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.formulas.tree import Number
 from optlaws.kept import kept_property
@@ -104,8 +104,12 @@ class CycleReport:
 
     @property
     def worse(self) -> list[Row]:
-        """The remarks on what modified sine is better in; nothing where it is not."""
-        return [] if self.beside is None else self.beside.remark_rows
+        """The remarks on modified sine: what it is better in, which limits it breaks, why it cannot stand beside."""
+        if self.beside is not None:
+            return self.beside.remark_rows
+        specification: Any = self.plan.specification
+        why = why_without_usual_law(specification) if self.plan.solutions else ""
+        return [Row("remark", why)] if why else []
 
     def motion(self, count: int) -> ReportTable:
         """Angle, time, position, velocity, acceleration and jerk at equal steps over the cycle.

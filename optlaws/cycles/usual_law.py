@@ -42,6 +42,22 @@ def usual_cycle(cycle: Cycle) -> Cycle | None:
     return usual
 
 
+def why_without_usual_law(cycle: Cycle) -> str:
+    """Why no usual law can stand beside a cycle of other laws; empty where it stands there, or is its own law.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Free, Return
+    >>> through = Free("60 mm", "0.3 s", via=[("0.1 s", "50 mm")])
+    >>> why_without_usual_law(Cycle([through, Return("60 mm")], period="1 s"))
+    'modified sine cannot stand beside these laws: it goes from rest to rest, and not all of these moves do'
+    """
+    moves = [each for each in cycle.segments if may_have_another_law(each)]
+    if not any(getattr(each, "law", None) != USUAL for each in moves) or usual_cycle(cycle) is not None:
+        return ""
+    return f"{USUAL} cannot stand beside these laws: it goes from rest to rest, and not all of these moves do"
+
+
 def may_have_another_law(segment: CycleSegment) -> bool:
     """Whether a segment is a motion that is optimised, or a move whose given law does not end in motion."""
     return is_optimal(segment) or (

@@ -21,6 +21,7 @@ from optlaws.cycles.placed import limits_reached
 from optlaws.cycles.report import objective_unit
 from optlaws.cycles.specification.limits import LimitTaken
 from optlaws.cycles.specification.segments import OPTIMAL
+from optlaws.cycles.usual_law import why_without_usual_law
 from optlaws.echo import shortened
 from optlaws.errors import OptlawsError
 from optlaws.jobs.cam_entries import CamOfMotion, CamProblemFile
@@ -63,12 +64,15 @@ class CamResult(SoughtCam):
 
     @kept_property
     def differences(self) -> Section:
-        """The cam beside the one with the usual law; nothing where it has no other laws."""
+        """The cam beside the one with the usual law; its own values where it has no other laws."""
         usual, chosen = self.usual, dict(self.values)
         if self.spec.radius is None and self.spec.best != "laws":
             chosen.pop("least prime circle", None)  # it is the prime circle
         if usual is None:
-            return Section()
+            rows = [Row(name, *value) for name, value in chosen.items()]
+            table = ReportTable(["what", "value", "unit"], [[row.name, row.value, row.unit] for row in rows])
+            why = why_without_usual_law(self.spec.cycle) if self.plan.solutions else ""
+            return Section("Peaks and sizes", rows, table, note=capital(f"{why}.") if why else "", digits=DIGITS)
         if self.spec.best == "prime circle":
             return cam_differences(USUAL, usual.values, chosen, "prime circle", self._broken_by_usual).section()
         least = objective_name(self.plan) + f" {WITHOUT_FRICTION}" * self._leaves_friction_out

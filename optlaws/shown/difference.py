@@ -86,6 +86,8 @@ class Differences:
     ('modified sine has 12.3 % less peak jerk than these laws: give them a higher degree',)
     >>> Differences("modified sine", values, "peak jerk", lambda: ["rise: velocity, 1.2 m/s of 1 m/s"]).remarks
     ('modified sine has 12.3 % less peak jerk than these laws, but breaks a limit: rise: velocity, 1.2 m/s of 1 m/s',)
+    >>> Differences("modified sine", values, "peak power", lambda: ["rise: velocity, 1.2 m/s of 1 m/s"]).remarks
+    ('modified sine breaks a limit that these laws satisfy: rise: velocity, 1.2 m/s of 1 m/s',)
     >>> Differences("modified sine", [Difference("jerk", "m/s³", 2630.0, 38293.0)], "energy").remarks
     ('jerk is 14.6 times that of modified sine: limit the jerk to less',)
     >>> drawn = [Difference(name, "", 1.0, 3.0) for name in ("peak jerk", "rms acceleration", "its greatest force")]
@@ -108,7 +110,9 @@ class Differences:
     @property
     def remarks(self) -> tuple[str, ...]:
         """What the usual law is better in by far, or in the objective at all, each with what to do about it."""
-        remarks, far, in_one_time = list[str](), list[Difference](), True
+        remarks, far, in_one_time, broken = list[str](), list[Difference](), True, self.broken()
+        limits = "a limit" if len(broken) == 1 else "limits"
+        named = joined("; ", map(_shortly, broken))
         for each in (value._replace(name=quantity_name(value.name)) for value in self.values):
             change = each.change or 0.0
             if each.name == quantity_name(self.objective):
@@ -116,12 +120,12 @@ class Differences:
                 in_one_time = each.unit != "s"
                 if change >= _SAME:
                     less = f"{self.usual} has {100.0 * change / (1.0 + change):.1f} % less {each.name} than these laws"
-                    broken = [*map(_shortly, self.broken())]
-                    limits = "a limit" if len(broken) == 1 else "limits"
-                    why = sentence(", but breaks {}: {}", limits, joined("; ", broken)) if broken else _REMEDY
+                    why = sentence(", but breaks {}: {}", limits, named) if broken else _REMEDY
                     remarks.append(sentence("{}{}", less, why))
             elif 1.0 + change > _FAR:
                 far.append(each)
+        if broken and not remarks:
+            remarks.append(sentence("{} breaks {} that these laws satisfy: {}", self.usual, limits, named))
         if far and in_one_time:
             times = [(each.name, f"{1.0 + (each.change or 0.0):.3g} times") for each in far]
             known = listed([" is ".join(times[0]), *map(" ".join, times[1:])])
