@@ -25,6 +25,8 @@ _NAMES = ("Position", "Velocity", "Acceleration", "Jerk")
 ORDERS = range(4)
 #: of a motion that is sampled: its second differences need some
 _FEWEST_TASKS = 4
+#: of the stroke, and of the acceleration of the law: an executed motion that is farther off or has more is warned of
+_FAR_OFF, _FAR_MORE = 0.01, 1.2
 ROUNDING = 1e-9, 2.0**-46  # jumps below these shares, of the peak and of what positions leave, are rounding
 
 
@@ -310,6 +312,26 @@ class Export(TextFile):
         """How many points or segments there are."""
         return self.written.points
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """That the executed motion is far off the law, or accelerates far more, and what to do; empty where it is not.
+
+        Examples
+        --------
+        >>> from optlaws import smoothstep
+        >>> smoothstep(3).export("codesys-xy", stroke="35 mm", master="120 deg", points=3).warnings
+        ('the executed motion is up to 1.88 mm off the law, 5.4 % of its stroke: take more points, or a format ...',)
+        """
+        off, stroke, more = self.report.deviation[0].value, self.motion.stroke, self.report.ratio(2)
+        far = []
+        if off > _FAR_OFF * stroke:
+            share = f"{off:.3g} {self.motion.units.slave} off the law, {100.0 * off / stroke:.2g} % of its stroke"
+            far.append(f"is up to {share}")
+        if _FAR_MORE < more < inf:
+            far.append(f"has {more:.3g} times its acceleration")
+        remedy = "take more points, or a format whose points are the joints of the motion, such as codesys-xyva"
+        return (f"the executed motion {' and '.join(far)}: {remedy}",) if far else ()
+
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:
         """Draw the motion and the executed motion over the master, down to the jerk, and the difference beside them.
 
@@ -336,7 +358,7 @@ class Export(TextFile):
             "model": written.model,
             written.counted: written.points,
             "resolution": written.resolution,
-            "notes": [*self.motion.proof, *written.notes],
+            "notes": [*self.warnings, *self.motion.proof, *written.notes],
             "units": {"master": self.motion.units.master, "slave": self.motion.units.slave},
             "IsPeriodic": self.motion.repeats,
             **self.report.results(),
@@ -387,7 +409,8 @@ class Export(TextFile):
         for text, run, law, _ in self.rows():
             name, unit = text.rsplit(", ", 1)
             rows.append(Row(name, run, unit, note="" if law is None else f"of the law {law:.7g}"))
-        return Summary([*rows, *(Row("note", note) for note in (*self.motion.proof, *written.notes))])
+        notes = [("warning", self.warnings), ("note", (*self.motion.proof, *written.notes))]
+        return Summary([*rows, *(Row(kind, text) for kind, texts in notes for text in texts)])
 
     def __str__(self) -> str:
         written, rows = self.written, self.rows()
@@ -398,7 +421,8 @@ class Export(TextFile):
             *((name, *("-" if value is None else format(value, ".7g") for value in values)) for name, *values in rows),
         ]
         lines = (f"{name:{width}}  {run:>14}  {law:>14}  {ratio:>9}".rstrip() for name, run, law, ratio in table)
-        return "\n".join([head, *self.motion.proof, *written.notes, *lines])
+        warnings = [f"warning: {warning}" for warning in self.warnings]
+        return "\n".join([head, *warnings, *self.motion.proof, *written.notes, *lines])
 
 
 def export_motion(

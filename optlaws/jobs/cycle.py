@@ -52,6 +52,7 @@ TOGETHER = "axes"
 _PEAKS = ("peak velocity", "peak acceleration", "peak jerk")
 _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, unit")
 _RUN = "What controllers will run: peaks of the exported files as interpolated, over the law's."
+_RUN_INTERLOCKED = "The interlocks are proven of the laws: what is executed is off these by the greatest deviation."
 _ABOUT = "Table and picture begin where the cam does: at {:.9g} deg of the cycle's master, until {:.9g} deg."
 _INTERLOCKS = "The proven value is a lower bound of the clearance over the whole cycle."
 
@@ -91,7 +92,9 @@ def run(results: Results) -> None:
         if len(cycles) > 1:
             page.text(_laws_of(name, cycle, overlap))
         if exports[name]:
-            page.text(_RUN).table(_EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()])
+            page.text(f"{_RUN} {_RUN_INTERLOCKED}" if cycles.rules else _RUN).table(
+                _EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()]
+            )
     for transition in transitions:
         _add_transition(page, results, transition, cycles[transition.axis], spec.rows)
     for number, sweep in enumerate(sweeps, 1):

@@ -16,9 +16,12 @@ from numpy.typing import NDArray
 from optlaws import (
     BoundaryConditions,
     Cycle,
+    Dwell,
     InputError,
     PiecewiseMotion,
     PolynomialLaw,
+    Return,
+    Rise,
     catalogue,
     law_from_z,
     reversed_law,
@@ -372,3 +375,20 @@ def test_no_locale_changes_a_byte() -> None:
             assert {to: export_motion(motion, to, points=9).text for to in READERS} == texts
     finally:
         locale.setlocale(locale.LC_ALL, kept)
+
+
+def test_an_executed_motion_far_off_the_law_is_warned_of() -> None:
+    """Even points miss moves that take a thousandth of a turn: the file was written without a word."""
+    moves = [Rise("40 mm", "0.2 s"), Dwell("0.1 s"), Return(duration="0.3 s"), Dwell()]
+    slow = Cycle(moves, speed="1 rpm", limits={"jerk": "347 m/s^3"})
+    far = slow.export("plcopen")
+    (warning,) = far.warnings
+    assert f"{far.report.deviation[0].value:.3g} mm off the law" in warning
+    assert f"warning: {warning}" in str(far)
+    assert warning in far.results()["notes"]
+    assert ("warning", warning) in [(row.name, row.value) for row in far.summary()]
+    (faster,) = slow.export("csv").warnings
+    assert "times its acceleration" in faster
+    joined = slow.export("codesys-xyva")
+    assert joined.warnings == ()
+    assert "warning" not in str(joined)
