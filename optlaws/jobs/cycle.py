@@ -91,10 +91,7 @@ def run(results: Results) -> None:
         _add_axis(page, f"{spec.title}: {name}", name, cycle, fastest.get(name), drawn)
         if len(cycles) > 1:
             page.text(_laws_of(name, cycle, overlap))
-        if exports[name]:
-            page.text(f"{_RUN} {_RUN_INTERLOCKED}" if cycles.rules else _RUN).table(
-                _EXPORT_HEADINGS, [_export_row(*item) for item in exports[name].items()]
-            )
+        _add_exports(page, exports[name], interlocked=bool(cycles.rules))
     for transition in transitions:
         _add_transition(page, results, transition, cycles[transition.axis], spec.rows)
     for number, sweep in enumerate(sweeps, 1):
@@ -290,6 +287,15 @@ def _file_name(axis: str, entry: ExportEntries) -> str:
         raise InputError(f"file must be a name without a folder, got {name}")
     writing.check_name(Path(name))
     return name
+
+
+def _add_exports(page: Page, exports: Mapping[str, Export], *, interlocked: bool) -> None:
+    """Put the peaks of what controllers execute on a page, with what is off the law by much."""
+    if not exports:
+        return
+    words = [_RUN, *([_RUN_INTERLOCKED] if interlocked else [])]
+    words += [f"{file}: {warning}." for file, export in exports.items() for warning in export.warnings]
+    page.text(" ".join(words)).table(_EXPORT_HEADINGS, [_export_row(*item) for item in exports.items()])
 
 
 def _export_row(name: str, export: Export) -> list[Cell]:
