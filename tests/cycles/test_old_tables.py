@@ -7,7 +7,7 @@ import pytest
 from scipy.interpolate import BPoly
 
 from optlaws import Cycle, Dwell, InputError, Return, Rise, catalogue, read_cycle_table, smoothstep, split_table
-from tests.internals.cycles import OldTableReport, law_of_move, nothing_to_better
+from tests.internals.cycles import OldTableReport, law_of_move, nothing_to_better, points_in
 
 PROGRAMME = [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()]
 
@@ -92,6 +92,73 @@ def test_a_heading_may_be_a_comment(tmp_path: Path, above: str, separator: str, 
     read = read_cycle_table(file)
     assert (read.master, read.unit) == units
     assert ("without a unit, taken as mm" in read.layout) == (units[1] == "mm")
+
+
+@pytest.mark.parametrize(
+    ("heading", "size", "unit"),
+    [
+        ("deg,stroke [mm/10]", 0.1, "mm"),
+        ("deg,lift 1/100 mm", 0.01, "mm"),
+        ("deg,lift x0.01mm", 0.01, "mm"),
+        ("deg;lift [0,01 mm]", 0.01, "mm"),
+        ("deg,lift [10⁻² mm]", 0.01, "mm"),
+        ("φ / °,s / mm", 1.0, "mm"),
+        ("Winkel [Grad],Hub [µm]", 1.0, "µm"),
+        ("deg,dm", 1.0, "dm"),
+        ("deg,Hub 40 mm", 1.0, "mm"),
+        ("angle,lift (old)", 1.0, "mm without a known unit in 'lift (old)'"),
+        ("deg,furlong", 1.0, "mm without a known unit in 'furlong'"),
+        ("winkel,hub", 1.0, "mm without a known unit in 'hub'"),
+        ("x,s", 1.0, "mm without a known unit in 's'"),
+    ],
+)
+def test_a_heading_says_what_its_numbers_count(tmp_path: Path, heading: str, size: float, unit: str) -> None:
+    file, (x, y) = tmp_path / "old.csv", table("modified sine", "cycloidal", 3)
+    separator = ";" if ";" in heading else ","
+    file.write_text("\n".join([heading, *(f"{a:g}{separator}{b:.3f}" for a, b in zip(x, y, strict=True))]), "utf-8")
+    points = points_in(file.read_text("utf-8"), file)
+    known, _, without = unit.partition(" ")
+    assert points.units == ("deg", known)
+    assert points.heights == pytest.approx(size * np.round(y, 3), rel=1e-12)
+    assert points.layout == (f"columns of numbers {without}, taken as mm" if without else "columns of numbers")
+
+
+@pytest.mark.parametrize(
+    ("heading", "says"),
+    [
+        ("deg,lift [furlong]", "'furlong' is no unit that is known here: .* such as unit = '0.01 mm'"),
+        ("deg,lift [-]", "'-' is no unit"),
+        ("deg,lift (x 0.01)", "'x 0.01' is no unit"),
+        ("deg,lift [mm/s]", "not clear what is counted"),
+        ("deg,lift mm/deg", "not clear what is counted"),
+        ("deg,lift mm*100", "not clear what is counted"),
+        ("deg,lift 10 µm", "not clear what is counted"),
+        ("deg,Grad", "Grad is a degree or 1/400 of a turn: say which, by unit = 'deg' or unit = 'gon'"),
+        ("steps,mm", "heading 'steps': numbers are counts: .* such as master = '0.9 deg'"),
+    ],
+)
+def test_a_heading_that_does_not_say_what_its_numbers_count_is_refused(tmp_path: Path, heading: str, says: str) -> None:
+    file = tmp_path / "old.csv"
+    x, y = table("cycloidal", "cycloidal", 3)
+    file.write_text("\n".join([heading, *(f"{a},{b:.3f}" for a, b in zip(x, y, strict=True))]), "utf-8")
+    with pytest.raises(InputError, match=says):
+        points_in(file.read_text("utf-8"), file)
+    assert points_in(file.read_text("utf-8"), file, unit="0.01 mm", master="deg").units == ("deg", "mm")
+
+
+@pytest.mark.parametrize("heading", ["gon", "angle [gon]", "grad", "Winkel [Grad]"])
+def test_a_turn_may_have_400_gon(tmp_path: Path, heading: str) -> None:
+    """A table without the row of its end; a master whose unit is not known is deg, which the layout says."""
+    file, (x, y) = tmp_path / "old.csv", table("modified sine", "cycloidal", 3)
+    rows = [f"{a / 0.9:.4f},{b:.3f}" for a, b in zip(x[:-1], y[:-1], strict=True)]
+    file.write_text("\n".join([f"{heading},mm", *rows]))
+    old = read_cycle_table(file)
+    assert old.master == "gon"
+    assert old.places[-1] == pytest.approx(400.0)
+    assert old.layout == f"columns of numbers, {len(rows)} rows with the end of their turn added"
+    assert old.cycle(speed="200 rpm").duration == pytest.approx(0.3)
+    file.write_text("\n".join(["Winkel,mm", *rows]))
+    assert "master without a known unit in 'Winkel', taken as deg" in points_in(file.read_text(), file).layout
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from optlaws.errors import InputError
 from optlaws.motion.quantities import either, quantity
 from optlaws.numbers import Array, NumberOrQuantity, Quantity, whole
 
-_TURNS = {"deg": 360.0, "rad": 2.0 * np.pi, "turn": 1.0, "rev": 1.0}
+_TURNS = {"deg": 360.0, "gon": 400.0, "rad": 2.0 * np.pi, "turn": 1.0, "rev": 1.0}
 _NEAR = 1e-3  # of the positions: by how much more the last one may be off the first one than steps beside it are
 _BESIDE = 4  # steps beside each end, by some of which noise is seen
 _ROWS_OVER_SEAM = 7  # on each side, whose slopes are alike where a motion goes on

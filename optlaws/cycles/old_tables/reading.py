@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
+from optlaws.cycles.old_tables.heading_units import GRAD, MASTER, NAMES, SIZE, SLAVE, size_of, unit_in
+from optlaws.echo import shortened
 from optlaws.errors import InputError, located
 from optlaws.laws.catalogue.tables.columns import ISG, points_of
 from optlaws.laws.catalogue.tables.curve_pieces import TablePoints, TableUnits
 from optlaws.motion.quantities import either
+from optlaws.numbers import Array
 
 _WHOLE_TURN = 1e-6  # of a turn: a master without a unit whose length is so near 360, 1 or 2 pi is one turn
+_STEP_OFF = 0.02  # of a step: by how much rows without that of the end may be off a step before the turn
 
-#: units as headings write them
-_UNITS = {"degree": "deg", "degrees": "deg", "grad": "deg", "°": "deg", "sec": "s", "turns": "turn", "revs": "rev"}
-_WORD = re.compile(r"°|[A-Za-zµ]+")
 _NUMBER = r"\d+(?:\.\d*)?(?:[eE][+-]?\d+)?"
 #: units of places and heights in the comments that optlaws writes
 _ABOUT = (
@@ -28,9 +29,11 @@ _ABOUT = (
     re.compile(r"y\(x\) in (?P<slave>\S+) for x from \S+ to \S+ (?P<master>[^\s:]+):"),
 )
 _RATE = re.compile(rf"the master goes ({_NUMBER}) \S+/s")
-_FACTOR = re.compile(rf"\s*({_NUMBER}|\.\d+)\s*(\D.*)")
+_FACTOR = re.compile(rf"\s*({SIZE}(?:\s*/\s*[1-9]\d*)?)\s*(\D.*)")
 #: masters without a unit, by their length
 _TURNS = {360.0: "deg", 1.0: "turn", 2.0 * np.pi: "rad"}
+#: what "grad" means where a table of such a length is a turn
+_GRADS = {360.0: "deg", 400.0: "gon"}
 
 
 def points_in(
@@ -50,8 +53,6 @@ def points_in(
     points = points_of(path, columns, most=5, content=content, cam=cam)
     about = next((match for pattern in _ABOUT if (match := pattern.search(content[:10_000]))), None)
     stated = TableUnits(about["master"], about["slave"]) if about else TableUnits()
-    length = abs(points.places[-1] - points.places[0])
-    supposed = next((name for turn, name in _TURNS.items() if abs(length - turn) <= _WHOLE_TURN * turn), "deg")
     with located(str(path)):
         if points.layout == ISG:
             # whole numbers of 1e-4 deg or 1e-4 mm, whatever the units of what they were made of
@@ -61,41 +62,47 @@ def points_in(
             stated = stated._replace(master=points.units.master)
             if unit is None and about is None:
                 raise InputError("positions of ROS are in m or rad: say which as the unit")
-        of_master = master or stated.master or _unit_in(points.units.master, ("angle", "time")) or supposed
-        of_slave = unit or stated.slave or _unit_in(points.units.slave, ("length", "angle"))
+        grad = _turn_of(points.places, _GRADS) if GRAD in points.units.master.casefold() else None
+        of_master = master or stated.master or unit_in(points.units.master, MASTER, grad)
+        of_slave = unit or stated.slave or unit_in(points.units.slave, SLAVE, grad)
+        layout = points.layout
         if of_slave is None:
             of_slave = "mm"
-            points = replace(points, layout=f"{points.layout} without a unit, taken as {of_slave}")
+            layout += f"{_without_unit(points.units.slave)}, taken as {of_slave}"
+        if of_master is None:
+            of_master = _turn_of(points.places, _TURNS)
+        if of_master is None:
+            of_master = "deg"
+            layout += f", master{_without_unit(points.units.master)}, taken as {of_master}"
         size, slave = _sized(of_slave, ("length", "angle"), "unit")
         step, whole = _sized(of_master, ("angle", "time", "length"), "master")
     speed = _RATE.search(content[:10_000])
     rate = (about.groupdict().get("rate") or (speed and speed[1])) if about and of_master == about["master"] else None
     return replace(
-        points, places=step * points.places, heights=size * points.heights, digit=size * points.digit,
+        points, layout=layout, places=step * points.places, heights=size * points.heights, digit=size * points.digit,
         pieces=tuple(piece.scaled(step, size) for piece in points.pieces), units=TableUnits(whole, slave),
         rate=float(rate) if rate else None,
     )  # fmt: skip
 
 
+def _turn_of(places: Array, turns: Mapping[float, str]) -> str | None:
+    """The unit in which places go over a whole turn, of which the row of the end may be missing."""
+    length, step = abs(places[-1] - places[0]), abs(places[-1] - places[-2])
+    for turn, unit in turns.items():
+        if abs(length - turn) <= _WHOLE_TURN * turn or abs(length + step - turn) <= _STEP_OFF * step:
+            return unit
+    return None
+
+
+def _without_unit(heading: str) -> str:
+    return f" without a known unit in {shortened(heading)}" if heading else " without a unit"
+
+
 def _sized(text: str, dimensions: tuple[str, ...], name: str) -> tuple[float, str]:
     match = _FACTOR.fullmatch(text)
-    size, unit = (float(match[1]), match[2].strip()) if match else (1.0, text.strip())
-    unit = _UNITS.get(unit.lower(), unit)
+    size, unit = (size_of(match[1]), match[2].strip()) if match else (1.0, text.strip())
+    unit = NAMES.get(unit.lower(), unit)
     either(f"1 {unit}", dimensions, name)
     if not size > 0.0:
         raise InputError(f"{name} must be a unit, or how many of one a number is, such as 0.01 mm, got {text}")
     return size, unit
-
-
-def _unit_in(heading: str, dimensions: tuple[str, ...]) -> str | None:
-    """The unit in a heading, the last word of it that is one."""
-    for word in reversed(_WORD.findall(heading)):
-        unit = _UNITS.get(word.lower(), word)
-        if len(unit) == 1 and unit not in {"m", "s"}:
-            continue
-        try:
-            either(f"1 {unit}", dimensions, "heading")
-        except InputError:
-            continue
-        return str(unit)
-    return None

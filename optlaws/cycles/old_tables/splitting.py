@@ -145,7 +145,9 @@ def table_of(
                 places, heights, turn=length, advance=step, lobes=lobes, begin=first, tolerance=tolerance,
                 unit=units.slave, master=units.master, digit=points.digit,
             )  # fmt: skip
-    return replace(table, layout=points.layout, rate=points.rate)
+    added = len(table.places) == lobes * len(places) + 1
+    layout = f"{points.layout}, {len(places)} rows with the end of their turn added" if added else points.layout
+    return replace(table, layout=layout, rate=points.rate)
 
 
 def _of_pieces(
