@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from math import sqrt
+from math import ceil, sqrt
 from typing import Any, NamedTuple, TypeAlias
 
 from optlaws.cams.curves.motion_by_angle import as_motion
@@ -29,9 +29,9 @@ from optlaws.entries.declared import documented_by
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece, factor
-from optlaws.motion.quantities import QUANTITIES, TURN, TURN_DEG, Kind
+from optlaws.motion.quantities import MILLI, QUANTITIES, TURN, TURN_DEG, Kind
 from optlaws.numbers import NumberOrQuantity
-from optlaws.sentences import joined, sentence
+from optlaws.sentences import Amount, joined, sentence
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import maximum
 from optlaws.synthesis.problem.fields import CONSTANTS
@@ -65,6 +65,7 @@ class CamBound(NamedTuple):
 _WIDER = "make the prime circle larger, the limits wider, or the motion longer"
 
 _ROUNDS = 8
+_TENTHS = 10.0  # of a mm: what a prime circle that is advised is rounded up to
 #: the constants of velocity, acceleration and jerk
 _DERIVATIVES = "BCJ"
 
@@ -189,13 +190,23 @@ def best_cam(
     if broken := limits.broken(cam.extremes):
         raise SolverFailure(
             sentence(
-                "the best laws go beyond limits that are not convex in them: {}; no law sought changes what "
-                "exceeds them in a dwell or under a given law: make the prime circle larger, or drop a limit",
+                "the best laws go beyond limits that are not convex in them: {}; {}",
                 joined("; ", broken.values()),
+                _circle_within(plan, given, limits),
             )
         )
     exact = bounds_are_of_all(cam.contact, limits)
     return _bounded_by(plan, cam, lambda: inner if exact else _beyond(cycle, given, limits))
+
+
+def _circle_within(plan: Plan, cam: DiscCam, limits: CamLimits) -> str:
+    """The prime circle on which laws satisfy limits that they exceed on a smaller one, as a remedy."""
+    try:
+        least = least_prime_circle(plan, cam.follower, **limits.to_dict(), turning=cam.turning).radius
+    except (InfeasibleProblem, InputError):
+        return "make the prime circle larger, or drop a limit"
+    enough = Amount(ceil(MILLI * least * _TENTHS) / _TENTHS, "mm")
+    return sentence("these laws satisfy them on a prime circle of {}: make it as large, or drop a limit", enough)
 
 
 def cam_of_laws(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, FrozenTable, ValueOf, declared, entry
 from optlaws.entries.value_types import Either, Listed, Number, ReadBy, Table, Text, Whole, is_list
-from optlaws.errors import InputError, located
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure, located
 from optlaws.files.tables import Cell
 from optlaws.jobs.job_entries import ProblemFile
 from optlaws.laws import MotionLaw
@@ -23,6 +23,7 @@ from optlaws.mechanisms.machine.transforms import velocity_transform_of
 from optlaws.numbers import Array, bounded
 from optlaws.plots.machine import laws_figure
 from optlaws.results import Results
+from optlaws.sentences import joined, sentence
 from optlaws.shown.report import Panel, ReportTable, Section, Series
 from optlaws.studies.problem_entries import gap, record
 from optlaws.synthesis import Functional, Problem, Solution, at_most, synthesize
@@ -33,6 +34,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _RESIDUAL_ROUNDING = 1e-12  # of the vibration of a step: a residual that is less is rounding
+
+_ROUNDED_UP = 1.001  # times a least value: laws are found from the printed one on
 
 _MATRIX = Listed(Listed(Number()))
 _OUTPUT = "An output of the machine."
@@ -283,8 +286,32 @@ def compared(
             else:
                 yield Compared(spec, machine, called, shaped)
     for name, problem in problems:
-        solution = synthesize(problem)
+        with located(name):
+            solution = solution_of_sought(problem)
         yield Compared(spec, machine, name, solution.law, solution)
+
+
+def solution_of_sought(problem: Problem) -> Solution:
+    """The solution of a problem; an error states what its limits would have to be, one at a time."""
+    try:
+        return synthesize(problem)
+    except InfeasibleProblem as error:
+        ways = [*_attainable(problem)]
+        if not ways:
+            raise
+        text = sentence("{}. With the other limits unchanged, laws are found {}", error.args[0], joined(" or ", ways))
+        raise InfeasibleProblem(text, problem=problem, tried=error.tried, proof=error.proof) from None
+
+
+def _attainable(problem: Problem) -> Iterator[str]:
+    """The least value of each limited constant that laws of a problem have within the other limits."""
+    for constant, allowed in problem.bounds.items():
+        others = {other: known for other, known in problem.bounds.items() if other is not constant}
+        try:
+            least = synthesize(replace(problem, minimise=constant, bounds=others)).objective
+        except (InfeasibleProblem, SolverFailure, InputError):
+            continue
+        yield f"from {least * _ROUNDED_UP:.4g} on, in place of {allowed.high:g}, for {constant.name}"
 
 
 def _about(spec: MachineLawsProblemFile) -> str:

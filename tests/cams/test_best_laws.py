@@ -469,3 +469,14 @@ def test_limits_that_are_missing_or_cannot_be_kept_say_the_remedy() -> None:
         greatest_roller(DiscCam(cycle, "60 mm", TranslatingFlat()))
     with pytest.raises(InputError, match="make the prime circle larger"):
         greatest_roller(DiscCam(cycle, "60 mm", TranslatingRoller("2 mm")), radius_of_curvature="90 mm")
+
+
+def test_a_circle_too_small_for_laws_is_refused_with_one_that_is_enough() -> None:
+    moves = [Rise("14 deg", "80 deg"), Dwell("15 deg"), Return("14 deg", "90 deg"), Dwell()]
+    cycle = Cycle(moves, speed="600 rpm", limits={"velocity": "1120 deg/s", "jerk": "1.6e6 rad/s^3"})
+    face = OscillatingFlat("90 mm", face_offset="4 mm")
+    with pytest.raises(SolverFailure, match=r"satisfy them on a prime circle of 60\.7 mm") as caught:
+        best_cam(cycle, "47.7 mm", face, radius_of_curvature="3 mm")
+    assert "make it as large, or drop a limit" in str(caught.value)
+    enough = best_cam(cycle, "60.7 mm", face, radius_of_curvature="3 mm").cam
+    assert np.asarray(enough.radius_of_curvature(np.linspace(0.0, 6.28, 721))).min() >= 3e-3

@@ -10,6 +10,6 @@ from optlaws.jobs.cycle_entries import read_given
 from optlaws.jobs.cycle_sweeps import sweeps_of
 from optlaws.jobs.job import JOBS, do
 from optlaws.jobs.job_entries import ProblemFile
-from optlaws.jobs.machine_laws import MachineLawsProblemFile, MachineTable
+from optlaws.jobs.machine_laws import MachineLawsProblemFile, MachineTable, solution_of_sought
 from optlaws.jobs.starters.starter import STARTERS
 from optlaws.jobs.starters.starter_numbers import TYPES, numbers_of
