@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 from optlaws import Cycle, Drive, InputError
-from tests.explorer.talk import Server
+from tests.explorer.talk import OPTIMAL, Server
 from tests.explorer.test_page import go, saves, settle
-from tests.internals.explorer import cycle_view, law_view, machine_view, start
+from tests.internals.explorer import cycle_view, example, law_view, machine_view, start
 from tests.internals.jobs import read_of_cycle_entries
 
 if TYPE_CHECKING:
@@ -310,3 +310,12 @@ def test_each_entry_that_a_mechanism_and_a_drive_declare_has_a_field(page: Page,
     page.get_by_label("kind of mechanism follower").select_option("translating flat")
     (saved,) = tomllib.loads(saves(page, "problem"))["axis"]
     assert saved["mechanism"]["follower"] == {"kind": "translating flat"}
+
+
+def test_an_objective_that_is_no_choice_of_the_page_is_shown(page: Page, served: Server) -> None:
+    study = example()
+    study["axis"][0]["minimise"] = "rms load acceleration"
+    study["axis"][0]["load"] = {"period": "0.03 s", "damping": 0.02, "mass": "2 kg"}
+    page.goto(served.link(laws=[OPTIMAL], view="cycle", machine=study))
+    page.get_by_label("minimise", exact=True).wait_for()
+    assert page.get_by_label("minimise", exact=True).input_value() == "rms load acceleration"

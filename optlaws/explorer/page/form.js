@@ -148,6 +148,8 @@ export function createForm(change, rested, taken = () => {}) {
     also((table) => {
       const value = textOf(at(table, path)) ?? "";
       const shown = choices && value === String(usual) ? "" : value;
+      // what a file has beyond the choices is one while it is shown
+      if (choices && shown && ![...field.options].some((one) => one.value === shown)) field.append(html("option", { value: shown, text: shown, translate: "no" }));
       // what is being written is left as it is as long as it says what the table has
       if (document.activeElement !== field || (given() !== shown && textOf(valueOf(given())) !== shown)) field.value = shown;
       field.title = value || placeholder;
