@@ -86,7 +86,7 @@ def error_bounds(motion: PiecewiseMotion, arithmetic: FloatingPoint = DOUBLE) ->
         length = Fraction(run.breaks[i + 1]) - Fraction(run.breaks[i])
         for nu in range(ORDERS):
             error = gamma * _magnitude(row, length, nu) + _magnitude(missed, length, nu)
-            bounds[nu] = max(bounds[nu], error + _underflow(run.degree, length, nu, arithmetic))
+            bounds[nu] = max(bounds[nu], error + _underflow(row, length, nu, arithmetic))
     rounded = ((float(bound), bound) for bound in bounds)
     return tuple(number if Fraction(number) >= bound else nextafter(number, inf) for number, bound in rounded)
 
@@ -107,11 +107,19 @@ def _magnitude(row: list[Fraction], length: Fraction, nu: int) -> Fraction:
     )
 
 
-def _underflow(degree: int, length: Fraction, nu: int, arithmetic: FloatingPoint) -> Fraction:
-    # four products a step may each miss by u times the least normal number, which at most 2^degree paths then carry on,
-    # with at most as many factors s as there are steps; twice that covers the roundings on the way
-    paths = Fraction((4 * degree + 2) * 2 ** (degree + 1)) * max(Fraction(1), length) ** degree
-    return factorial(nu) * paths * arithmetic.unit * arithmetic.least
+def _underflow(row: list[Fraction], length: Fraction, nu: int, arithmetic: FloatingPoint) -> Fraction:
+    """What products that underflow may add to the derivative of order nu at the end of a piece.
+
+    The product of each order m misses in each step by at most u times the least normal number. In the `left` steps
+    behind it the recurrence makes of it comb(left, nu - m) length**(left - nu + m) times as much, and twice that covers
+    the roundings on the way. Products of the leading zeros of a row are exact.
+    """
+    degree = max((n for n, c in enumerate(row) if c), default=0)
+    carried = sum(
+        (comb(left, n) * length ** (left - n) for left in range(degree + 1) for n in range(min(left, nu) + 1)),
+        Fraction(0),
+    )
+    return 2 * factorial(nu) * carried * arithmetic.unit * arithmetic.least
 
 
 _BOUND_ROUNDING = 2.0**-30  # of a bound of roundings: more than its own sum of positive numbers is rounded by

@@ -132,13 +132,18 @@ class Report:
 def as_run(run: PiecewiseMotion, motion: Motion, bound: float = 0.0, roundings: tuple[float, ...] = ()) -> Report:
     """The report of an execution by the master: every number is an extreme over the whole motion, not over a grid.
 
-    Roundings may add `bound` to the acceleration; jumps of velocity, acceleration and jerk up to `roundings` are such.
+    Roundings may add `bound` to the acceleration; jumps of velocity, acceleration and jerk up to `roundings` are such
+    where the law has none.
     """
     rate = motion.units.rate or 1.0
-    law = _characteristics(motion, motion, rate, (0.0,) * 4)
+    law = _characteristics(motion, motion, rate, ((0.0,) * 4,) * 2)
     height, step = run.peak(0).value, float(run.lengths.min())
-    known = (0.0, *(roundings or (0.0,) * 3))
-    floors = [max(ROUNDING[1] * height * (rate / step) ** nu, known[nu] * rate**nu) for nu in ORDERS]
+    floors = [ROUNDING[1] * height * (rate / step) ** nu for nu in ORDERS]
+    known = [limit * rate**nu for nu, limit in enumerate((0.0, *(roundings or (0.0,) * 3)))]
+    of_inside, of_ends = (
+        [max(least, 0.0 if jump else most) for least, jump, most in zip(floors, (0.0, *jumps), known, strict=True)]
+        for jumps in ([jump.value for jump in law.jumps], law.jumps_at_ends)
+    )
 
     def meant(x: Array, nu: int) -> Array:
         # beyond its ends, which the master may pass by rounding, the motion continues
@@ -150,29 +155,32 @@ def as_run(run: PiecewiseMotion, motion: Motion, bound: float = 0.0, roundings: 
         else Extreme(inf, motion.start)
         for nu in ORDERS[:3]
     )
-    return Report(_characteristics(run, motion, rate, floors), law, deviation, rate, bound * rate**2)
+    return Report(_characteristics(run, motion, rate, (of_inside, of_ends)), law, deviation, rate, bound * rate**2)
 
 
 def _characteristics(
-    side: Motion | PiecewiseMotion, motion: Motion, rate: float, floors: Sequence[float]
+    side: Motion | PiecewiseMotion, motion: Motion, rate: float, floors: tuple[Sequence[float], Sequence[float]]
 ) -> Characteristics:
     """The characteristics of the law, which is the motion, or of its run; jumps up to floors are rounding."""
     extremes = [tuple(_sized(each, rate**nu) for each in side.extremes(nu)) for nu in ORDERS]
     start, end = (tuple(rate**nu * float(np.ravel(side.ends(nu)[i])[-i]) for nu in ORDERS) for i in (0, 1))
-    small = [
-        max(ROUNDING[0] * max(abs(low.value), abs(high.value)), least)
-        for (low, high), least in zip(extremes, floors, strict=True)
-    ]
+    inside, at_ends = (
+        [
+            max(ROUNDING[0] * max(abs(low.value), abs(high.value)), least)
+            for (low, high), least in zip(extremes, of_place, strict=True)
+        ]
+        for of_place in floors
+    )
     if isinstance(side, Motion):
         jumps, travel = tuple(_sized(side.jump(nu), rate**nu) for nu in ORDERS[1:]), travel_of_law(side)
     else:
-        jumps, travel = tuple(_jump(side, nu, rate, small[nu]) for nu in ORDERS[1:]), travel_of_run(side)
+        jumps, travel = tuple(_jump(side, nu, rate, inside[nu]) for nu in ORDERS[1:]), travel_of_run(side)
     low, high = (tuple(pair[i] for pair in extremes) for i in (0, 1))
     changes = (abs(b - a) if motion.repeats else max(abs(a), abs(b)) for a, b in zip(start, end, strict=True))
-    _, *at_ends = (change if change > least else 0.0 for change, least in zip(changes, small, strict=True))
+    _, *changed = (change if change > least else 0.0 for change, least in zip(changes, at_ends, strict=True))
     effective = inf if jumps[0].value else rate**2 * side.rms(2)
     return Characteristics(
-        start, end, low, high, rate * travel / (side.stop - side.start), effective, jumps, tuple(at_ends)
+        start, end, low, high, rate * travel / (side.stop - side.start), effective, jumps, tuple(changed)
     )
 
 

@@ -137,6 +137,32 @@ def test_the_bound_is_near_what_numbers_hold_however_long_a_piece_is() -> None:
                 assert bound <= 3000.0 * float(arithmetic.unit) * max(motion.peak(nu).value, 35.0 / length**nu)
 
 
+def test_the_bound_is_near_what_numbers_hold_beside_a_long_dwell() -> None:
+    """The beginning of a move of degree 23 and a rest of 108 deg, whose products of zeros are exact."""
+    powers = smoothstep(11).pieces("35 mm", "90 s").coefficients[0]
+    move, motion = PiecewiseMotion([0.0, 18.0], [powers]), PiecewiseMotion([0.0, 18.0, 126.0], [powers, [35.0]])
+    alone, both = error_bounds(move, SINGLE), error_bounds(motion, SINGLE)
+    assert both[1:] == pytest.approx(alone[1:], rel=1e-9)
+    assert both[0] <= 35.0 * 70.0 * float(SINGLE.unit), "the position of the rest is rounded in each step"
+
+
+def test_the_bound_holds_where_products_underflow() -> None:
+    """Positions of 1e-36 in REAL, whose powers are below its least normal number."""
+    motion = PiecewiseMotion([0.0, 3.0], [[1e-36 / 3.0**n for n in range(9)]])
+    run, bounds, beyond = as_stored(motion, SINGLE), error_bounds(motion, SINGLE), 0
+    row = [np.float32(c) for c in run.powers()[0]]
+    for place in np.linspace(0.0, 3.0, 97, dtype=np.float32):
+        values = [row[-1], *[np.float32(0.0)] * 3]
+        for c in row[-2::-1]:
+            values = [a * place + b for a, b in zip(values, [c, *values], strict=False)]
+        for nu, value in enumerate(values):
+            found = Fraction(float(np.float32(factorial(nu)) * value))
+            error = abs(found - exact_value(motion, 0, Fraction(float(place)), nu))
+            assert error <= Fraction(bounds[nu])
+            beyond += error > 0
+    assert beyond > 97
+
+
 def test_the_header_says_units_peaks_proof_and_bounds_and_nothing_ends_its_comment() -> None:
     motion = PiecewiseMotion([0, 0.1], [[0, 0, 0, 35000]])
     labels = Labels("s", "mm", ("status optimal, bound 4.41 */ int x; /*", "second\nline"))

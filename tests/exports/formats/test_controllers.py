@@ -169,6 +169,23 @@ def test_function_blocks_and_headers_run_what_their_report_says(tmp_path: Path) 
     assert float(output) == pytest.approx(17.5, abs=1e-13)
 
 
+@pytest.mark.parametrize("back", ["3-4-5 polynomial", "modified sine"])
+def test_jumps_of_the_law_stay_in_real_beside_a_long_rest(back: str) -> None:
+    """The powers of a law of degree 19 are not multiplied by those of the rest's length, 225 deg."""
+    segments = [Rise("35 mm", "45 deg", law=smoothstep(9)), Dwell("225 deg"), Return("35 mm", law=back)]
+    export = Cycle(segments, speed="60 rpm").export("iec-st-real")
+    run, law = export.report.run, export.report.law
+    assert law.jumps[2].value > 0.0
+    assert run.jumps[2].value == pytest.approx(law.jumps[2].value, rel=1e-3)
+    assert run.jumps_at_ends[2] == pytest.approx(law.jumps_at_ends[2], rel=1e-3)
+    assert [jump.value for jump in run.jumps[:2]] == [jump.value for jump in law.jumps[:2]] == [0.0, 0.0]
+    stated = next(note for note in export.written.notes if "come from the rounding to REAL32" in note)
+    bounds = [float(number) for number in re.findall(r"(\S+) mm/deg", stated)]
+    assert len(bounds) == 3
+    for nu, bound in enumerate(bounds, start=1):
+        assert bound < 0.1 * export.run.peak(nu).value
+
+
 def test_ends_are_those_of_the_motion_and_joints_close() -> None:
     motion = motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg", duration="0.1 s")
     for name in ("twincat-nc2", "siemens-points", "siemens-elements", "siemens-polynomials"):
