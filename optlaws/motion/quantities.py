@@ -49,6 +49,8 @@ _DERIVED: dict[str, tuple[int | str | Fraction, str]] = {
 _NAMES = {name: names for names in (*_BASES.values(), *_DERIVED) for name in names.split()}
 _PREFIXES = {"nano": -9, "micro": -6, "milli": -3, "centi": -2, "kilo": 3, "mega": 6, "giga": 9}
 _PREFIXES |= {"n": -9, "µ": -6, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
+#: powers of ten from which on lengths, angles and times of machines have no prefix: Mm is a slip of the hand for mm
+_NO_PREFIX = 6
 
 #: by dimension: units that errors name, that of SI first, and an example
 DIMENSIONS = {
@@ -309,6 +311,9 @@ def _parts(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[float, s
         raise InputError(f"{asks}, got {shortened(value)}")
     if not isfinite(number):
         raise InputError(f"{name} must be finite, got {shortened(value)}")
+    near = unit.lower()
+    if _known_unit(near) is not None and any(_si_factor(near, each) is not None for each in dimensions):
+        raise InputError(f"{asks}, but the unit of {shortened(value)} is not known; did you mean {near}?")
     known = " or ".join(f"{_article(each)} in {DIMENSIONS[each][0]}" for each in dimensions)
     raise InputError(f"{asks}, but the unit of {shortened(value)} is not known: write {known}")
 
@@ -333,6 +338,11 @@ class _Unit(NamedTuple):
 
 
 _BARE = _Unit(Fraction(1), (0,) * len(_BASES))
+#: the powers of lengths, angles, times and turns in a time
+_MOTIONS = {
+    tuple(powers.get(base, 0) for base in _BASES)
+    for powers in ({"length": 1}, {"angle": 1}, {"time": 1}, {"angle": 1, "time": -1})
+}
 
 
 @lru_cache(maxsize=256)
@@ -356,7 +366,9 @@ def _of_name(name: str) -> _Unit | None:
         for prefix, power in (("", 0), *_PREFIXES.items()):
             rest = singular.removeprefix(prefix)
             if singular.startswith(prefix) and rest in _NAMES and (singular == name or len(rest) > 1):
-                return _defined(_NAMES[rest]).times(_Unit(Fraction(10) ** power, _BARE.powers))
+                unit = _defined(_NAMES[rest])
+                if power < _NO_PREFIX or unit.powers not in _MOTIONS:
+                    return unit.times(_Unit(Fraction(10) ** power, _BARE.powers))
     return None
 
 

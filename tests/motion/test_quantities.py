@@ -85,7 +85,9 @@ def test_quantities_in_si_units(text: str, dimension: str, value: float) -> None
     assert quantity(text, dimension, "it") == pytest.approx(value, rel=1e-14)
 
 
-PREFIXES = ["", "n", "u", "µ", "m", "c", "k", "M", "G", "milli", "kilo"]
+PREFIXES = ["", "n", "u", "µ", "m", "c", "k", "milli", "kilo"]
+#: of grams and newtons alone, beside these
+GREAT_PREFIXES = ["M", "G"]
 #: names of units, prefixed ones before others, and the names of pint where it has others
 UNITS = {
     "L": (["m", "meter", "metre"], ["in", "inches", "ft", "foot", "feet", "thou"]),
@@ -114,14 +116,35 @@ def test_units_are_what_pint_says(data: st.DataObject) -> None:
     dimension = data.draw(st.sampled_from(sorted(SHAPES)))
     ours, theirs = SHAPES[dimension], SHAPES[dimension].replace(" ", "*").replace("^", "**")
     for letter, (prefixed, others) in UNITS.items():
+        prefixes = [*PREFIXES, *(GREAT_PREFIXES if letter in "MF" else [])]
         prefix, name = data.draw(st.one_of(
-            st.tuples(st.sampled_from(PREFIXES), st.sampled_from(prefixed)),
+            st.tuples(st.sampled_from(prefixes), st.sampled_from(prefixed)),
             *([st.tuples(st.just(""), st.sampled_from(others))] if others else []),
         ))  # fmt: skip
         ours = re.sub(rf"\b{letter}\b", f"{prefix}{name}", ours)
         theirs = re.sub(rf"\b{letter}\b", OF_PINT.get(prefix, prefix) + OF_PINT.get(name, name), theirs)
     expected = PINT.Quantity(1.0, theirs).to_base_units()
     assert quantity(f"1 {ours}", dimension, "it") == pytest.approx(float(expected.magnitude), rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "near"),
+    [
+        ("40 Mm", "length", "mm"),
+        ("40 MM", "length", "mm"),
+        ("40 Mm/s", "velocity", "mm/s"),
+        ("3 Ms", "time", "ms"),
+        ("3 RPM", "angular velocity", "rpm"),
+        ("3 DEG", "angle", "deg"),
+        ("3 KG", "mass", "kg"),
+    ],
+)
+def test_a_unit_in_other_letters_is_asked_for_by_its_name(text: str, dimension: str, near: str) -> None:
+    """A megametre is no length of a machine, but a slip of the hand for a millimetre."""
+    with pytest.raises(InputError, match=rf"the unit of '{text}' is not known; did you mean {near}\?$"):
+        quantity(text, dimension, "it")
+    assert quantity("5 MN", "force", "it") == 5e6
+    assert quantity(PINT.Quantity(4.0, "Mm"), "length", "it") == 4e6
 
 
 def test_a_unit_of_a_table_is_rounded_once() -> None:
