@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from functools import reduce
-from itertools import combinations, pairwise
+from itertools import combinations
 from itertools import product as every
 from math import prod
 
@@ -30,8 +29,6 @@ from optlaws.formulas.tree import (
 from optlaws.numbers import Array
 
 _MOST = 16
-#: into how many parts a line of a table is cut for a smooth curve through its points
-_BETWEEN = 8
 _RISING = frozenset(name for name, function in SMOOTH_FUNCTIONS.items() if function.rising)
 
 #: whether a formula is nowhere below 0 (1) or above (-1), or neither is known (0)
@@ -177,44 +174,6 @@ def _in_powers(coefficients: Sequence[float], of: Formula) -> Formula:
     """The polynomial with these coefficients, ascending."""
     powers = [Number(1.0), of, *(Exponentiation(of, Number(float(m))) for m in range(2, len(coefficients)))]
     return added([multiplied([number(value), power]) for value, power in zip(coefficients, powers, strict=False)])
-
-
-def rounded(formula: Formula, radius: float) -> Formula:
-    """A smooth formula near it: hyperbolas of this radius in place of the kinks of sizes, maxima and minima.
-
-    Tables of straight lines become smooth curves through as many points between their places as keep them near.
-
-    >>> from optlaws.formulas.reading import read
-    >>> rounded(read("abs(b)"), 0.5), rounded(read("max(b, c)"), 0.5)
-    (sqrt(b^2 + 0.25), 0.5*(b + c + sqrt((b - c)^2 + 0.25)))
-    """
-    parts = [rounded(part, radius) for part in formula.parts]
-    if isinstance(formula, Table) and not formula.smooth and formula.order == 0:
-        return _through(formula, parts[0])
-    if not formula.kinked or not isinstance(formula, Call):
-        return rebuilt(formula, parts) if parts else formula
-    if len(parts) == 1:
-        return _hyperbola(parts[0], radius)
-    sign = 1.0 if formula.function == "max" else -1.0
-
-    def greater(first: Formula, other: Formula) -> Formula:
-        apart = _hyperbola(added([first, opposite(other)]), radius)
-        return multiplied([Number(0.5), added([first, other, multiplied([number(sign), apart])])])
-
-    return reduce(greater, parts)
-
-
-def _through(table: Table, of: Formula) -> Table:
-    """A smooth curve through points on the lines of a table, which leaves no line between two of them."""
-    pairs = list(pairwise(zip(table.places, table.values, strict=True)))
-    shares = [i / _BETWEEN for i in range(_BETWEEN)]
-    places = [x + share * (after - x) for (x, _), (after, _) in pairs for share in shares]
-    values = [y + share * (after - y) for (_, y), (_, after) in pairs for share in shares]
-    return Table(of, (*places, table.places[-1]), (*values, table.values[-1]), "monotone")
-
-
-def _hyperbola(of: Formula, radius: float) -> Formula:
-    return Call("sqrt", (added([Exponentiation(of, Number(2.0)), Number(radius**2)]),))
 
 
 class _Branches:

@@ -7,7 +7,7 @@ between them, and what a kink moves by adds to its second derivatives.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from itertools import pairwise
 from typing import Self
@@ -15,7 +15,7 @@ from typing import Self
 import numpy as np
 
 from optlaws.formulas.arithmetic import NUMPY, Together
-from optlaws.formulas.branches import branches_at, knots, rounded
+from optlaws.formulas.branches import branches_at, knots
 from optlaws.formulas.slopes import Slopes
 from optlaws.formulas.tree import Formula, Number
 from optlaws.kept import kept_property
@@ -90,7 +90,7 @@ class FreeKinks:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class KinkedIntegralFamily(IntegralFamily):
-    """f is the integral of a formula with kinks in the law, or its root; its nodes are for guesses alone."""
+    """f is the integral of a formula with kinks in the law, or its root: of each law over stretches of its own."""
 
     #: of 0 and places k the names' columns, shape (names, places, variables + 1); of 1 those of their slopes by k
     rows: Callable[[int, Array], Array]
@@ -105,12 +105,6 @@ class KinkedIntegralFamily(IntegralFamily):
 
     def in_units(self, units: Array, unit: float) -> Self:
         return replace(super().in_units(units, unit), units=self.units * np.append(units, 1.0))
-
-    def rounded(self, share: float, x: Array) -> IntegralFamily:
-        """The integral at its nodes of a smooth formula near it, with hyperbolas of a share of f in a law as radius."""
-        given = {field.name: getattr(self, field.name) for field in fields(IntegralFamily)}
-        smooth = rounded(self.formula, share * abs(float(self.value(x, np.ones(1))[0])))
-        return IntegralFamily(**{**given, "formula": smooth, "convex": False})
 
     @property
     def quadratic(self) -> bool:

@@ -12,18 +12,15 @@ from typing import Any
 import numpy as np
 
 from optlaws.formulas.arithmetic import casadi_arithmetic, evaluate
-from optlaws.formulas.branches import rounded
 from optlaws.lazy import casadi_lock
 from optlaws.numbers import Array
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily, IntegralFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, NormFamily, Points, ProductFamily, Program
-from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.method.discretised.on_points import Answer
 from optlaws.tolerances import BARRIER, EMPTY_ROW, LEAST_ENERGY
 
-_KINK_RADIUS = 0.003  # of hyperbolas in place of kinks, in units of the problem
 _LEAST_SUM = 1e-24  # under a root in IPOPT's expressions: its slope stays finite
 
 
@@ -101,8 +98,7 @@ def _formula_detail(family: Any) -> Hashable:
     """The formula, its names, whether it is summed over its places, and whether the root of that is meant."""
     if not isinstance(family, IntegralFamily):
         return family.formula, family.names, False, False
-    formula = rounded(family.formula, _KINK_RADIUS) if isinstance(family, KinkedIntegralFamily) else family.formula
-    return formula, family.names, True, family.root
+    return family.formula, family.names, True, family.root
 
 
 def _formula(point: Any, symbols: list[Any], detail: Any) -> Any:
