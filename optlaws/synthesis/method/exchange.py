@@ -37,6 +37,7 @@ from optlaws.synthesis.method.presolve import (
     independent,
     nearly_vanished,
     units_of,
+    vanishing,
 )
 from optlaws.tolerances import BOUND_FEASIBILITY, EXCESS, STEP_SETTLED
 
@@ -132,7 +133,7 @@ def _in_own_units(program: Program, warm: ActiveSet | None, options: _Options) -
             return Outcome(optimum, 0, 0, "continued from a neighbour")
     chosen = independent(program.equalities)
     if chosen.all():
-        return _Exchange(program, options).outcome()
+        return _solved(program, options)
     if contradiction(program.equalities, program.right) is not None:
         return Outcome(None, 0, 0, "equations that contradict each other")
     fewer = replace(program, equalities=program.equalities[chosen], right=program.right[chosen])
@@ -142,7 +143,16 @@ def _in_own_units(program: Program, warm: ActiveSet | None, options: _Options) -
         multipliers[chosen] = state.equality_multipliers
         return replace(state, equality_multipliers=multipliers)
 
-    return _Exchange(fewer, options).outcome().mapped(of_all)
+    return _solved(fewer, options).mapped(of_all)
+
+
+def _solved(program: Program, options: _Options) -> Outcome:
+    """The solution of a program whose equations are independent."""
+    if options.start is None and program.curved and options.method != IPOPT:
+        nothing_left = vanishing(program)
+        if nothing_left is not None:
+            return Outcome(nothing_left, 0, 0, "nothing left")
+    return _Exchange(program, options).outcome()
 
 
 class _Exchange:

@@ -25,7 +25,7 @@ from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import FormulaFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily, ProductFamily, Program
-from optlaws.tolerances import DEPENDENT_ROWS, EMPTY_ROW
+from optlaws.tolerances import DEPENDENT_ROWS, EMPTY_ROW, EXCESS
 
 #: smaller laws are solved as they are
 _GREAT = 100.0
@@ -206,6 +206,7 @@ def _unit(count: int, place: int, size: float) -> Array:
 
 
 _NEARLY_APEX = 1e-5  # of what the base law leaves: an amplitude that is less may vanish
+_VANISHED = 1e-13  # amplitudes that are minimised vanish if their sum is less
 _APEX_DIRECTION = 1e-9  # of a multiplier: by so much the parts of an amplitude that vanishes may pull more than it does
 
 
@@ -285,3 +286,23 @@ def _equations(program: Program, i: int) -> tuple[Array, Array]:
     column = family.columns(np.array(family.domain[:1]))[0, 0]
     rows = np.vstack([column.real[:-1], column.imag[:-1], family.slack])
     return rows, np.array([-column.real[-1], -column.imag[-1], -family.bound])
+
+
+def vanishing(program: Program) -> ActiveSet | None:
+    """A law in which all amplitudes that are minimised vanish: many may have none, and then no contact shows one."""
+    minimised = [family for family in program.families if (program.objective * family.slack).any()]
+    cones = [family for family in minimised if isinstance(family, ConeFamily) and family.domain[0] == family.domain[1]]
+    costs = np.flatnonzero(program.objective)
+    bounded = all(sum(cone.slack[i] for cone in cones) for i in costs)
+    if not cones or len(cones) < len(minimised) or not bounded:
+        return None
+    columns = [cone.columns(np.array(cone.domain[:1]))[0, 0] for cone in cones]
+    rows = np.vstack([np.array([column.real, column.imag]) for column in columns])
+    conditions = np.concatenate([rows[:, :-1], program.equalities])
+    right = np.concatenate([-rows[:, -1], program.right])
+    # what is minimised is to be nothing
+    conditions[:, costs] = 0.0
+    x = np.linalg.lstsq(conditions, right, rcond=None)[0]
+    if np.abs(conditions @ x - right).max() > _VANISHED or program.violation(x) > EXCESS:
+        return None
+    return ActiveSet.of_contacts(x, (), np.zeros(len(program.right)))
