@@ -34,6 +34,7 @@ from optlaws.motion.piece import Piece, factor, moves_at, unit_of
 from optlaws.motion.quantities import Exact, Kind, in_small_units, quantity
 from optlaws.sentences import quantity_name
 from optlaws.shown.report import Report
+from optlaws.shown.steps import step
 from optlaws.synthesis.least_time.move_limits import RESIDUALS, FollowerResidual
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
 from optlaws.synthesis.problem.expression import Maximum, leaves
@@ -298,6 +299,7 @@ class Candidates:
         """
         minimise, second = self.minimise, self.second
         name = least(minimise)
+        step(name)
         best = self.laws[name] = self._least(name, minimise, {})
         beside = "" if self.usual is None else f", no worse than {self.usual.name}"
         most = self.most()
@@ -333,6 +335,7 @@ class Candidates:
         """
         minimise, second = self.minimise, self.second
         most = self.most(second)
+        step(f"front, its ends; {points} points in all")
         try:
             beside = {**most, minimise: self._twice} if minimise in _OF_MOTION else most
             ends = [self._within(least(name), name, less) for name, less in ((minimise, most), (second, beside))]
@@ -345,6 +348,7 @@ class Candidates:
         for i in range(1, points if low < high else 0):
             value = high * (low / high) ** (i / (points - 1))
             name = f"{least(minimise)} at a {second} of {value:.4g}"
+            step(f"front, point {i + 1} of {points}")
             try:
                 self.exchanged.append(self._within(name, minimise, {**most, second: value}))
             except OptlawsError as error:
@@ -361,6 +365,7 @@ class Candidates:
 
     def _add(self, name: str, make: Callable[[], AdvisedLaw]) -> AdvisedLaw | None:
         """Add a law under its name, or the error with the reason for its absence."""
+        step(name)
         try:
             self.laws[name] = make()
         except OptlawsError as error:

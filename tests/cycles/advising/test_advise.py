@@ -27,6 +27,7 @@ from optlaws import (
     compare_laws,
     synthesize,
 )
+from tests.internals.shown import steps
 
 FOLLOWER = {"frequency": ("27 Hz", "33 Hz"), "damping": 0.05}
 STANDARD = ("modified sine", "modified trapezoid", "cycloidal", "3-4-5 polynomial", "4-5-6-7 polynomial")
@@ -410,3 +411,12 @@ def test_a_value_that_a_cycle_has_not_is_refused() -> None:
     for name, says in (("beauty", "beauty"), ("energy", "are of a drive")):
         with pytest.raises(InputError, match=says):
             press().value(name)
+
+
+def test_each_law_that_is_looked_for_is_a_step_of_the_work() -> None:
+    seen: list[str] = []
+    with steps.shown_by(lambda text, _: seen.append(text)):
+        advice = advise(Rise("35 mm", "0.1 s"), points=3)
+    looked_for = [law.name for law in advice.laws if law.kind == "optimal"]
+    assert set(looked_for) <= set(seen)
+    assert {"front, point 2 of 3", "front, point 3 of 3"} <= set(seen)
