@@ -112,15 +112,19 @@ def test_files_that_a_file_names_are_beside_it(
 
 
 def test_without_matplotlib_there_are_all_results_but_pictures(tmp_path: Path) -> None:
-    program = "import sys; sys.modules['matplotlib'] = None; from optlaws.cli import main; main()"
-    command = [sys.executable, "-c", program, "cycle", str(PRESS)]
-    done = subprocess.run([*command, "--out", "results"], cwd=tmp_path, capture_output=True, text=True, check=True)
-    assert "the results have no pictures: drawing needs matplotlib: pip install matplotlib" in done.stderr
+    program = (
+        "import sys; sys.modules['matplotlib'] = None; from optlaws.cli import exit_code, main\n"
+        f"assert exit_code(['cycle', {str(PRESS)!r}, '--out', 'results']) == 0\n"
+        f"print('drawn', flush=True); main(['cycle', {str(PRESS)!r}, '--plot', 'x.svg'])"
+    )
+    command = [sys.executable, "-c", program]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout.rpartition("drawn")[2]) == (2, "\n")
+    results, drawn = (" ".join(part.split()) for part in done.stderr.split("optlaws: drawing needs"))
+    assert "the results have no pictures: drawing needs matplotlib: pip install matplotlib" in results
+    assert drawn.startswith("matplotlib: pip install")
     assert {file.name for file in (tmp_path / "results").iterdir()} == {"cycle.md", "cycle.json", "slide.csv"}
     assert ".svg" not in (tmp_path / "results" / "cycle.md").read_text("utf-8")
-    drawn = subprocess.run([*command, "--plot", "x.svg"], cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert (drawn.returncode, drawn.stdout) == (2, "")
-    assert drawn.stderr.splitlines()[-1].startswith("optlaws: drawing needs matplotlib: pip install")
 
 
 def test_a_reader_who_has_seen_enough_leaves_the_results_of_all_files(tmp_path: Path) -> None:
