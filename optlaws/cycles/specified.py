@@ -138,7 +138,8 @@ class Specification(Declared, title="a stored cycle"):
     load: Any = entry(
         LoadTable(ElasticLoad),
         'What the motion drives elastically, over the whole cycle: `{"period": "20 ms", "damping": 0.05, "mass": "2 '
-        "kg\"}` for a follower's mass on its spring, the damping as its ratio to the critical one, between mass and "
+        "kg\"}` for a follower's mass on its spring, or its frequency in place of the period, the damping as its ratio "
+        "to the critical one, between mass and "
         'ground; or a `Machine` in seconds and SI units. Its outputs may be minimised and bounded: "load '
         'acceleration", "rms load deflection", "load force"; the cycle is then one problem. Or a process force on the '
         'mechanism of the drive, `{"force": {"0 deg": "0 N", "360 deg": "-400 N"}, "over": "master", "on": '

@@ -441,6 +441,19 @@ def test_a_load_that_is_too_stiff_is_refused_before_it_is_moved(monkeypatch: pyt
         stiff.status  # noqa: B018 - it is refused by its numbers alone
 
 
+def test_a_load_may_have_its_frequency_in_place_of_its_period() -> None:
+    known = {"damping": 0.05, "mass": "2 kg"}
+    standard = [Rise("30 mm", "120 deg", law="modified sine"), Dwell("60 deg"), Return("30 mm", law="modified sine")]
+    by_period, by_frequency = (
+        Cycle(standard, speed="300 rpm", load=known | given) for given in ({"period": "20 ms"}, {"frequency": "50 Hz"})
+    )
+    for output in ("acceleration", "deflection", "force"):
+        expected = by_period.load_motion.peak(output).value
+        assert by_frequency.load_motion.peak(output).value == pytest.approx(expected, rel=1e-12)
+    assert by_frequency.to_dict()["load"] == known | {"frequency": "50 Hz"}
+    assert Cycle.from_dict(by_frequency.to_dict()) == by_frequency
+
+
 def test_limits_of_the_load_are_kept() -> None:
     loose = cycle(minimise="rms acceleration")
     most = 0.9 * loose.load_motion.peak("acceleration").value
@@ -481,6 +494,9 @@ def test_limits_of_the_force_are_kept_between_dwells() -> None:
         ({"load": {"period": "2 mm"}}, "load: period must be a time"),
         ({"load": {"priod": "2 ms"}}, "load: unknown entry of a load 'priod'; did you mean 'period'"),
         ({"load": {"period": "2 ms", "inertia": "2 kg m^2"}}, "give its mass, not its inertia"),
+        ({"load": {"damping": 0.1}}, "load: a load needs its period or its frequency, such as period = "),
+        ({"load": {"period": "20 ms", "frequency": "50 Hz"}}, "a load needs its period or its frequency, not both"),
+        ({"load": {"frequency": "20 ms"}}, "load: frequency must be a frequency"),
         ({"load": 3}, "load: a load must be a table of period, damping"),
         ({"limits": {"load acceleration": "3 m"}}, "limits, load acceleration must be an acceleration"),
         ({"limits": {"force": "3 m"}}, "limits: force must be a force"),

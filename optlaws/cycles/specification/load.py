@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 from optlaws.cycles.specification.limits import AXES, FORCES
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, entry
-from optlaws.entries.value_types import Measured, Number
+from optlaws.entries.value_types import KnownQuantity, Measured, Number
 from optlaws.errors import InputError, located
 from optlaws.motion.piece import Piece, factor
-from optlaws.motion.quantities import quantity
+from optlaws.motion.quantities import Derived, quantity
 from optlaws.numbers import NumberOrQuantity, positive
 from optlaws.synthesis.problem.constants import Functional
 
@@ -26,19 +26,42 @@ if TYPE_CHECKING:
 class ElasticFollower(Declared, title="an elastic follower"):
     """A mass on a spring, damped against the ground, that a motion drives.
 
+    Raises
+    ------
+    InputError
+        If neither the period nor the frequency is given, or both.
+
     Examples
     --------
-    >>> ElasticFollower("20 ms").damping
-    0.0
+    >>> ElasticFollower("20 ms").damping, ElasticFollower(frequency="50 Hz").period
+    (0.0, '0.02 s')
     """
 
-    period: NumberOrQuantity = entry(Measured("time", above=0.0), "Of its free vibration.", example="20 ms")
+    period: KnownQuantity = entry(
+        Measured("time", above=0.0), "Of its free vibration; it or the frequency.", default=None, example="20 ms"
+    )
     damping: float = entry(
         Number(least=0.0),
         "Its damping as a share of the critical one, between mass and ground.",
         default=0.0,
         example=0.05,
     )
+    frequency: NumberOrQuantity | None = entry(
+        Measured("frequency", above=0.0),
+        "Of its free vibration, in place of the period.",
+        default=None,
+        kw_only=True,
+        example="50 Hz",
+    )
+
+    def _check(self) -> None:
+        period = None if isinstance(self.period, Derived) else self.period
+        if (period is None) == (self.frequency is None):
+            both = "not both" if period is not None else 'such as period = "20 ms" or frequency = "50 Hz"'
+            raise InputError(f"{self.named} needs its period or its frequency, {both}")
+        if period is None:
+            natural = quantity(self.frequency, "frequency", "frequency", above=0.0)
+            object.__setattr__(self, "period", Derived(1.0 / natural, "s"))
 
 
 @declared
@@ -59,7 +82,11 @@ class ElasticLoad(ElasticFollower, title="a load"):
 
 def is_process(given: Any) -> bool:
     """Whether a load of a cycle is a process force, and nothing elastic."""
-    return isinstance(given, Mapping) and bool({"force", "torque"} & given.keys()) and "period" not in given
+    return (
+        isinstance(given, Mapping)
+        and bool({"force", "torque"} & given.keys())
+        and not {"period", "frequency"} & given.keys()
+    )
 
 
 @dataclass(frozen=True)
