@@ -117,12 +117,11 @@ class SoughtCam:
         """
         if not self.bound_is_open:
             return self
-        left = "the cam without a bound" if self.plan.lower_bound is None else "the quick bound"
-        step(f"proving that no law takes less power; Ctrl-C leaves {left}")
+        step("proving that no law takes less power; Ctrl-C leaves the quick bound, if there is one")
         try:
             return replace(self, known=with_tight_bounds(self.plan), circle=self.cam.prime_radius, searched=True)
         except KeyboardInterrupt:
-            step(f"the search for a proof was stopped: it leaves {left}", stays=True)
+            step("the search for a proof was stopped: the bound is the quick one, if there is one", stays=True)
             return replace(self, searched=True)
 
     @property
