@@ -2,9 +2,7 @@
 
 Beside a law that is known the next one is sought by itself; its structure is tried at ever more distant places in
 either direction, and all places between are filled in waves, each interpolated from the one before and made exact by a
-step of Newton's method. Every law is proven optimal by itself, but where a structure's places and multipliers do not
-depend on t: there its laws are affine in t, and two that are verified verify all between, for constraints are convex,
-and what multipliers prove is affine.
+step of Newton's method. Every law is proven optimal by itself.
 """
 
 from __future__ import annotations
@@ -23,17 +21,14 @@ from optlaws.synthesis.arrays.newton_steps import (
     certification_of,
     clipped,
     converged,
-    lower_bounds,
     step,
     structure_of,
 )
 from optlaws.synthesis.arrays.programs import Numbers, Path, SolvedBatch
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.method.exchange import solve
-from optlaws.tolerances import AGREEMENT
 
 _SAME_STATE = 1e-5  # of a segment: states nearer to each other are one of those that others are interpolated between
-_CERTIFIED_GAP = 1e-10  # of an objective: laws of an array whose bound leaves no more are proven
 _ROUGH_STEP = 1e-7  # of a law: a step of more than this share is followed by others
 
 #: states between which others are interpolated
@@ -224,10 +219,6 @@ def _last_place(laws: SolvedBatch, path: Path, segment: StructureSegment, t: Arr
 def _fill(laws: SolvedBatch, path: Path, segment: StructureSegment, t: Array, places: Places) -> None:
     """Enter the laws of a segment at places between those at which some are known, in waves."""
     structure = segment.structure
-    between = segment.away(t[places]) == 0.0
-    if structure.affine and not path.slope.cost.any() and segment.begin < segment.end and between.any():
-        _affine(laws, path, segment, places[between], t[places[between]])
-        places = places[~between]
     for stride in _WAVES:
         if stride > 1 and len(places) < _PER_WAVE * stride:
             continue
@@ -288,26 +279,6 @@ class _LawsOfStructure:
             _put(self.optima, self.structure, self.places[known[sound]], solved.taken(sound), values)
             left[known[sound]] = False
         return np.flatnonzero(left)
-
-
-def _affine(laws: SolvedBatch, path: Path, segment: StructureSegment, places: Places, t: Array) -> None:
-    """Enter laws between the ends of a segment along which they are affine."""
-    structure = segment.structure
-    ends = States.unpacked(segment.rows[[0, -1]], structure)
-    numbers = path.numbers(np.array([segment.begin, segment.end]))
-    excess = float(certification_of(path, structure, numbers, ends).excess.max())
-    share = ((t - segment.begin) / (segment.end - segment.begin))[:, None]
-    first = ends.taken(slice(0, 1))
-    x = ends.x[0] + share * (ends.x[1] - ends.x[0])
-    value = structure.jets(first.x, first.u)[0]
-    value[:, :, :-1] -= structure.slack
-    numbers = path.numbers(t)
-    bound = lower_bounds(path, structure, numbers, first, value)
-    objective = path.model.unit * (x @ numbers.cost[0])
-    sound = np.abs(objective - bound) <= _CERTIFIED_GAP * np.maximum(np.abs(objective), AGREEMENT * path.model.unit)
-    end_parts = (np.broadcast_to(part, (len(t), part.shape[1])) for part in (first.u, first.weights, first.equations))
-    states = States(x, *end_parts).taken(sound)
-    _put(laws, structure, places[sound], states, (objective[sound], bound[sound], np.full(int(sound.sum()), excess)))
 
 
 def _put(

@@ -50,14 +50,6 @@ class Structure:
         """A key that equal structures share."""
         return tuple(zip(self.family.tolist(), self.sign.tolist(), self.free.tolist(), strict=True))
 
-    @property
-    def affine(self) -> bool:
-        """Whether the contacts' places and multipliers are the same for all right sides: rows alone determine them."""
-        program = self.model.program
-        return not program.curved and bool(
-            2 * self.free.sum() + (~self.free).sum() + len(program.equalities) == program.size
-        )
-
     @kept_property
     def slack(self) -> Array:
         """Right sides of the contacts' rows in the variables."""
@@ -293,14 +285,12 @@ def lower_bounds(path: Path, structure: Structure, numbers: Numbers, states: Sta
     Parameters
     ----------
     path, structure, numbers, states
-        The laws' programs and their states; one state may stand for all, if its contacts and multipliers are theirs
-        and their costs are one.
+        The laws' programs and their states.
     value
         The rows of the contacts, less the right sides' variables, shape (laws, contacts, variables + 1).
     """
     program = path.model.program
-    weights, equations = np.maximum(states.weights, 0.0), states.equations
-    cost = numbers.cost[: len(states)]
+    weights, equations, cost = np.maximum(states.weights, 0.0), states.equations, numbers.cost
     rows = value[:, :, :-1]
     slope = cost + weighted(weights, rows) + equations @ program.equalities
     right = value[:, :, -1] - numbers.bounds[:, structure.family]
