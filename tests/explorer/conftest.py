@@ -33,16 +33,18 @@ def remembering(answer: Callable[..., Awaitable[tuple[int, bytes]]]) -> Callable
     known: dict[tuple[str, str], tuple[int, bytes]] = {}
 
     async def remembered(workers: Workers, name: str, body: bytes, *patience: float) -> tuple[int, bytes]:
+        if name not in HEAVY:
+            return await answer(workers, name, body, *patience)
         try:
             question = name, json.dumps(json.loads(body))
-        except ValueError:
+        except (ValueError, RecursionError):  # which the explorer refuses
             return await answer(workers, name, body, *patience)
-        if question in known:
-            return known[question]
-        reply = await answer(workers, name, body, *patience)
-        if name in HEAVY and not reply[1].startswith(b'{"error"'):
+        if question not in known:
+            reply = await answer(workers, name, body, *patience)
+            if reply[1].startswith(b'{"error"'):
+                return reply
             known[question] = reply
-        return reply
+        return known[question]
 
     return remembered
 
