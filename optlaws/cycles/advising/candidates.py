@@ -8,6 +8,7 @@ from functools import partial
 from math import inf
 from typing import Any, Literal, NamedTuple
 
+from optlaws.cycles.answers import PROVEN_BOUND
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.optimisation.objectives import OBJECTIVES, kind_of
 from optlaws.cycles.placed import limits_taken, with_laws
@@ -92,6 +93,8 @@ class ProvenLeast(NamedTuple):
         The laws of which none is better, in words.
     status
         Of the solutions.
+    certified
+        Whether the certificates of its laws alone prove the lower bound; else it is computed in doubles from more.
     """
 
     minimise: str
@@ -99,6 +102,7 @@ class ProvenLeast(NamedTuple):
     best_possible: float | None
     space: str
     status: Status
+    certified: bool = True
 
 
 @dataclass(frozen=True)
@@ -504,7 +508,8 @@ class Candidates:
             best = max(
                 (each.best_possible * scale for each, scale in known if each.best_possible is not None), default=None
             )
-            proof = ProvenLeast(minimise, plan.lower_bound, best, space, plan.status)
+            certified = plan.lower_bound_name == PROVEN_BOUND
+            proof = ProvenLeast(minimise, plan.lower_bound, best, space, plan.status, certified)
         else:
             bound = max(solution.lower_bound * scale for solution, scale in moves)
             proven = all(solution.status is Status.OPTIMAL for solution in solutions)

@@ -150,11 +150,12 @@ class _Words:
         above = self.law.values[minimise] / bound - 1.0
         near = f" ({_percent(above / (1.0 + above))} less)" if above > _TELLING * EQUALLY_GOOD else ""
         lowest = sentence("{}{}", self._with_unit(minimise, bound), near)
+        word = "Proven" if proof.certified else "Computed in doubles"
         if proof.status is Status.OPTIMAL:
             with_no_more = f" with {self.no_more}" if self.no_more else ""
-            proven = sentence("Proven: {}{} have at least {}", proof.space, with_no_more, lowest)
+            proven = sentence("{}: {}{} have at least {}", word, proof.space, with_no_more, lowest)
         else:
-            proven = sentence("Proven: {} have at least {}", proof.space or "all laws", lowest)
+            proven = sentence("{}: {} have at least {}", word, proof.space or "all laws", lowest)
         if proof.best_possible:
             best = self._with_unit(minimise, proof.best_possible)
             proven = sentence("{}, those of any degree at least {}", proven, best)

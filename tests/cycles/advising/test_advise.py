@@ -420,3 +420,14 @@ def test_each_law_that_is_looked_for_is_a_step_of_the_work() -> None:
     looked_for = [law.name for law in advice.laws if law.kind == "optimal"]
     assert set(looked_for) <= set(seen)
     assert {"front, point 2 of 3", "front, point 3 of 3"} <= set(seen)
+
+
+@pytest.mark.long
+def test_a_bound_that_no_certificate_proves_alone_is_not_called_proven() -> None:
+    load = {"period": "0.03 s", "mass": "2 kg", "damping": 0.02}
+    moves = [Rise("35 mm", "0.1 s"), Return("35 mm", "0.12 s")]
+    cycle = Cycle(moves, period="0.22 s", load=load, minimise="rms load acceleration", degree=7)
+    advice = advise(cycle, points=0, laws=["modified sine"])
+    assert "Computed in doubles: splines" in str(advice)
+    assert "Proven" not in str(advice)
+    assert advice["least rms load acceleration"].motion.lower_bound_name == "lower bound in doubles"
