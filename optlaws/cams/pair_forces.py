@@ -18,6 +18,7 @@ from optlaws.numerics.branch_and_bound import Extremes
 from optlaws.numerics.interval import Interval, chosen, middle
 from optlaws.numerics.roots import bisect
 from optlaws.numerics.taylor import Jet
+from optlaws.tolerances import FORCE_ROUNDING
 
 _OF_CONTACT = ("friction", "width", "materials")
 #: angles between edges at which the sign of the force is looked at
@@ -122,11 +123,14 @@ class PairForces(CamForces):
         return self._enclosed(self._only_of_return(self.on_return._contact_force))  # noqa: SLF001
 
     @kept_property
+    def pressure(self) -> Extremes:
+        """Least and greatest of Hertz's pressure of the first cam, enclosed over the turn."""
+        return _roots(self._enclosed(self._squared_pressure))
+
+    @kept_property
     def pressure_of_return(self) -> Extremes:
         """Least and greatest of Hertz's pressure of the return cam, enclosed over the turn."""
-        square = self._enclosed(self._only_of_return(self.on_return._squared_pressure))  # noqa: SLF001
-        sizes = {name: max(getattr(square, name), 0.0) ** 0.5 for name in ("least", "low", "most", "high")}
-        return square._replace(**sizes)
+        return _roots(self._enclosed(self._only_of_return(self.on_return._squared_pressure)))  # noqa: SLF001
 
     @property
     def pressed_by_return(self) -> list[tuple[float, float]]:
@@ -170,3 +174,10 @@ class PairForces(CamForces):
         if isinstance(angle, Interval):
             return Jet([chosen(pressed, *pair) for pair in both])
         return Jet([np.where(pressed, *pair) for pair in both])
+
+
+def _roots(square: Extremes) -> Extremes:
+    """The square roots of extremes, 0 where the square is rounding of its greatest value."""
+    sizes = {name: getattr(square, name) for name in ("least", "low", "most", "high")}
+    rounding = FORCE_ROUNDING * square.most
+    return square._replace(**{name: size**0.5 if size > rounding else 0.0 for name, size in sizes.items()})
