@@ -294,6 +294,8 @@ def test_axes_are_exported_under_their_own_names(form: str) -> None:
          r"axis x: segment 4 \(Return\): nothing bounds its time: give .*, or all axes either a speed such as"),
         (lambda: Axes({"x": HEAD}, speed="30 rpm", period="2 s"), "either a speed such as"),
         (lambda: Axes({"x": HEAD}, period="1 s"), r"axis x: the durations sum to"),
+        (lambda: Cycle([Move("9 mm", "300 deg"), Dwell("120 deg"), Return("9 mm", "300 deg")], speed="3000 rpm"),
+         "sum to 720 deg, and a cycle is one turn of its master: divide the angles and the speed by 2"),
         (lambda: Axes({"x": NO_SEGMENTS}, period="1 s"), "axis x: its segments are a list such as"),
         (lambda: Axes({"x": {"segment": HEAD}}, period="1 s"), "axis x: unknown key 'segment'; did you mean"),
         (lambda: Axes({"x": TABLE | {"period": "2 s"}}, period="2 s"), "axis x: all axes have one period"),

@@ -155,6 +155,12 @@ def _durations(segments: Sequence[CycleSegment], names: Sequence[str], period: f
     if low > period * (1.0 + CLOSURE) or high < period * (1.0 - CLOSURE):
         total = low if low > period else high
         share = 360.0 * total / period
+        turns = round(share / 360.0)
+        if turns > 1 and abs(share - 360.0 * turns) <= CLOSURE * share:
+            raise InputError(
+                f"the durations sum to {360 * turns} deg, and a cycle is one turn of its master: divide the angles and "
+                f"the speed by {turns} where the master turns {turns} times in a cycle"
+            )
         raise InputError(
             sentence(
                 "the durations sum to {} ({} s), not to {} ({} s): {} segments by {} in all, or leave out the duration "
