@@ -114,9 +114,18 @@ class CycleReport:
     def motion(self, count: int) -> ReportTable:
         """Angle, time, position, velocity, acceleration and jerk at equal steps over the cycle.
 
-        With a drive force (or torque) and power, with a motor its speed too.
+        With a drive force (or torque) and power, with a motor its speed too; with an elastic load its outputs.
         """
-        return motion_table(self.plan, (0.0, TURN_DEG), count, self._of_drive)
+        return motion_table(
+            self.plan, (0.0, TURN_DEG), count, lambda times: self._of_drive(times) | self._of_load(times)
+        )
+
+    def _of_load(self, times: Array) -> dict[str, Array]:
+        plan = self.plan
+        if plan.specification.in_si.load is None:
+            return {}
+        outputs = plan.load_motion.outputs
+        return {f"{name} of the load, {load_unit(plan, name)}": plan.load_motion[name](times) for name in outputs}
 
     def _of_drive(self, times: Array) -> dict[str, Array]:
         plan = self.plan

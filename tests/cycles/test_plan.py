@@ -39,7 +39,7 @@ from optlaws import (
     synthesize,
 )
 from optlaws.verification import verify_all
-from tests.internals.cycles import Answers, answer
+from tests.internals.cycles import Answers, CycleReport, answer
 from tests.internals.files import reading
 from tests.internals.jobs import read_of_cycle_entries as read
 
@@ -403,3 +403,17 @@ def test_a_given_law_that_decides_the_objective_is_optimal_whatever_the_others_a
     assert plan.solutions[0].status == "local"
     assert plan.objective == pytest.approx(plan.lower_bound, rel=1e-12)
     assert plan.status == "optimal"
+
+
+def test_the_table_of_a_motion_has_its_elastic_load() -> None:
+    """Of a massless spring and a mass: m x'' = k (s - x), without damping, and both columns are of one motion."""
+    load = {"period": "23 ms", "damping": 0.0, "mass": "2 kg"}
+    moves = [Rise("30 mm", "120 deg", law="cycloidal"), Dwell("60 deg"), Return(law="cycloidal")]
+    cycle = Cycle(moves, speed="300 rpm", load=load)
+    table = CycleReport(cycle).motion(721)
+    columns = dict(zip(table.headings, np.array(table.rows).T, strict=True))
+    accelerated, force = columns["acceleration of the load, m/s²"], columns["force of the load, N"]
+    assert np.abs(accelerated).max() == pytest.approx(cycle.value("load acceleration"), rel=1e-3)
+    np.testing.assert_allclose(np.abs(force), np.abs(2.0 * accelerated), atol=1e-6)
+    stretched = columns["deflection of the load, m"] * (2.0 * np.pi / 0.023) ** 2
+    np.testing.assert_allclose(np.abs(stretched), np.abs(accelerated), atol=1e-5)
