@@ -5,6 +5,7 @@ import re
 import tomllib
 from base64 import b64decode
 from collections.abc import Callable
+from copy import deepcopy
 from dataclasses import replace
 from html import escape
 from math import degrees, hypot
@@ -473,6 +474,27 @@ def test_a_cam_that_is_undercut_says_so_and_one_that_is_none_why() -> None:
     assert cam_view.answer(CycleRequest(study=study | {"prime_radius": "50 mm"}))["panels"][1]["beyond"]
     for changed in ({"prime_radius": "18 kg"}, {"follower": {"kind": "translating roller"}}, {"base": "18 mm"}):
         assert cam_view.answer(CycleRequest(study=study | changed))["refused"]["word"] == "no such cam"
+
+
+def test_a_cam_stands_beside_the_one_with_the_usual_law_in_a_table() -> None:
+    """The peaks of the page are those of the two cycles; no sentence repeats a row."""
+    best = cam_view.example()
+    usual = deepcopy(best)
+    for segment in usual["motion"]["segment"]:
+        if segment["kind"] != "dwell":
+            segment["law"] = "modified sine"
+    answer, alone = (cam_view.sizes(CycleRequest(study=study)) for study in (best, usual))
+    headings, rows = (answer["beside"][name] for name in ("headings", "rows"))
+    assert headings == ["what", "modified sine", "this law", "difference"]
+    known = {what: [each.value for each in values] for what, *values, _ in rows}
+    peaks = [cam_view.result_of(CycleRequest(study=study)).plan.peak(2) for study in (usual, best)]
+    assert known["peak acceleration"] == pytest.approx(peaks, rel=1e-9)
+    assert known["prime circle"] == [60.0, 60.0]
+    assert not any("modified sine has" in str(fact) for fact in answer["facts"])
+    assert alone["beside"]["headings"] == ["what", "value"]
+    of_usual = {what: value.value for what, value in alone["beside"]["rows"]}
+    for what in ("peak acceleration", "peak jerk"):
+        assert known[what][0] == pytest.approx(of_usual[what], rel=1e-9)
 
 
 @pytest.mark.sample(4)

@@ -407,6 +407,9 @@ def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Serv
     go(page, served.link(view="cam"))
     assert "no undercut" in page.locator("#cam-trust").inner_text()
     assert page.locator("#cam-curves svg").count() == 3
+    head, *rows = page.locator("#cam-trust table.sizes tr").all_inner_texts()
+    assert head.split("\t")[1:3] == ["modified sine", "this law"]
+    assert rows[0].startswith("peak acceleration\t27.8609 m/s²\t21.8838 m/s²")
     lowest = lift(page)
     page.get_by_label("Angle of the cam, degrees").fill("165")
     assert lift(page) == pytest.approx(lowest + 35.0, abs=1e-3)

@@ -19,7 +19,7 @@ from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located
 from optlaws.explorer.views.cycle_view import SEGMENTS, CycleRequest
 from optlaws.explorer.views.law_view import refusing
 from optlaws.explorer.views.opened_results import OPENED
-from optlaws.explorer.views.panel_data import drawn, fact_sentences, panel_data
+from optlaws.explorer.views.panel_data import drawn, fact_sentences, panel_data, table_data
 from optlaws.explorer.views.requests import check_size, without_files
 from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.jobs.cam_result import CamResult
@@ -123,9 +123,10 @@ def sizes(request: CycleRequest) -> dict[str, Any]:
     """
     others = {name: value for name, value in request.study.items() if name not in {"cutter_radius", "title", "text"}}
     result = result_of(CycleRequest(study=others | {"title": "a cam"}))
-    parts = result.differences, result.laws, result.sizes
-    facts = [each for part in parts for each in fact_sentences(part.facts, part.digits)]
-    return {"facts": [*facts, *(part.note for part in (result.differences, result.sizes) if part.note)]}
+    facts = [each for part in (result.laws, result.sizes) for each in fact_sentences(part.facts, part.digits)]
+    notes = [part.note for part in (result.differences, result.sizes) if part.note]
+    beside = result.differences.table
+    return {"beside": None if beside is None else table_data(beside), "facts": [*facts, *notes]}
 
 
 def values_of(request: CycleRequest) -> ReportTable:

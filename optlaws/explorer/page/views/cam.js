@@ -6,7 +6,7 @@ import { column, explained, group, growing, laidOut, part, picture, status } fro
 import { createProgramme } from "../machine_forms.js";
 import { createMechanism } from "../mechanism.js";
 import { createPanels, createRun } from "../panels.js";
-import { showTrust } from "../report.js";
+import { showTrust, table } from "../report.js";
 import { html } from "../svg.js";
 import { listed, written } from "../units.js";
 import { same } from "../views.js";
@@ -42,7 +42,7 @@ export function createView(root, study, { cam, programme }) {
     sizes.ask(question);
   });
   const loads = new Latest("api/cam-loads", (loads, asked) => same(asked.study, study.state.cam) && bear(loads), (error) => bear({ panels: [], facts: [error.message] }));
-  const sizes = new Latest("api/cam-sizes", ({ facts }, asked) => same(asked.study, study.state.cam) && fact(facts), (error) => fact([error.message]));
+  const sizes = new Latest("api/cam-sizes", ({ facts, beside }, asked) => same(asked.study, study.state.cam) && fact(facts, beside), (error) => fact([error.message]));
   turning(cam.entries);
   motion.cursor.watch(turn);
 
@@ -66,10 +66,11 @@ export function createView(root, study, { cam, programme }) {
     mechanism.show(answer);
   }
 
-  /** What is known of the sizes stands below the words of trust; until it is, the space is kept. */
-  function fact(facts) {
-    elements.trust.querySelector(".sizes")?.remove();
+  /** What is known of the sizes stands below the words of trust, and how they compare; until it is, the space is kept. */
+  function fact(facts, beside = null) {
+    for (const old of elements.trust.querySelectorAll(".sizes")) old.remove();
     elements.trust.append(html("p", { class: "facts sizes", text: facts ? listed(facts) : "…" }));
+    if (beside) elements.trust.append(table("Peaks and sizes", beside.headings, beside.rows, { class: "sizes" }));
   }
 
   /** What the cam bears stands below its geometry. */
