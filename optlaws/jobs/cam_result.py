@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Self
 from optlaws.cams.best_laws import BestCam, BestPrimeCircle
 from optlaws.cams.cam_values import SPRING_UNITS, WITHOUT_FRICTION, cam_differences, objective_name, objective_value
 from optlaws.cams.curves.extremes import UNDERCUT
+from optlaws.cams.followers.follower import positive
 from optlaws.cams.forces import CamForces
 from optlaws.cams.least_sizes import BestOffset, LeastPrimeCircle, greatest_roller
 from optlaws.cams.report import DIGITS, CamReport, forces_section, leaves_at
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
 BOUNDING = "bounding_solutions"
 _BY_RUN = "its bound is computed by optlaws run"
 _KNOWN = 1e-6  # m: what a machine knows of a size
+_LARGE = 2.0  # m: a larger prime circle is likelier one whose unit is missing
 _STIFFER = 0.5  # per cent: what a spring is stiffer than with the usual law, from which on that is said
 
 
@@ -317,8 +319,11 @@ class CamResult(SoughtCam):
 
     @property
     def warning(self) -> str:
-        """That the follower leaves the cam, which stands before everything else; blank where it does not."""
-        return "" if self.forces is None else leaves_at(self.forces)
+        """What stands before everything else: that the follower leaves the cam, or that the cam is of metres."""
+        radius = positive(self.cam.prime_radius, "prime_radius")
+        large = f"The prime circle has a radius of {radius:.{DIGITS}g} m: a length without a unit is in metres."
+        left = "" if self.forces is None else leaves_at(self.forces)
+        return " ".join(filter(None, [large if radius > _LARGE else "", left]))
 
     @property
     def sections(self) -> tuple[Section, ...]:

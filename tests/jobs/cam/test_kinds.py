@@ -543,6 +543,14 @@ def test_a_search_for_the_proof_of_a_power_that_is_stopped_leaves_the_quick_boun
     assert "| local, gap " in page
 
 
+def test_lengths_that_are_likely_without_their_unit_are_the_first_sentence_of_a_page(tmp_path: Path) -> None:
+    text = GIVEN.replace('best = "laws"\n', "")
+    page, *_ = done(tmp_path, text.replace('radius = "12 mm"', "radius = 12").replace('"50 mm"', "12.05"))
+    sentence = "The prime circle has a radius of 12.05 m: a length without a unit is in metres."
+    assert sentence in page
+    assert page.index(sentence) < page.index("![")
+
+
 def test_a_follower_that_lifts_off_is_the_first_sentence_of_its_page(tmp_path: Path) -> None:
     motion = MOTION.replace("degree = 5", 'degree = 5\ndrive = { mass = "2 kg" }')
     text = HEAD + 'prime_radius = "60 mm"\n' + ROLLER + "[forces]\n" + motion
