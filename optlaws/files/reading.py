@@ -67,7 +67,7 @@ def text(file: Path, largest: int = LARGEST_JSON, *, legacy: bool = False) -> st
             return data.decode("cp1250", errors="replace") if _SIGN_IN_WORD.search(western) else western
         if legacy and data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
             return data.decode("utf-16", errors="replace")
-        raise InputError(f"{name} is not a text file in UTF-8") from None
+        raise InputError(f"{name} is not a text file in UTF-8: save it in this encoding") from None
 
 
 def is_file(file: Path) -> bool:
