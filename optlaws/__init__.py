@@ -39,9 +39,8 @@ declare(
 declare(
     "basis",
     {
-        "optlaws.synthesis.spaces.bases": "bernstein chebyshev pieces powers",
+        "optlaws.synthesis.spaces.bases": "bernstein bsplines chebyshev pieces powers",
         "optlaws.synthesis.spaces.free_pieces": "periodic",
-        "optlaws.synthesis.spaces.splines": "bsplines",
     },
 )
 declare(

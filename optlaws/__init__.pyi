@@ -190,7 +190,7 @@ from .synthesis.spaces.bases import (
 )
 from .synthesis.spaces.end_conditions import BoundaryConditions as BoundaryConditions, law_from_z as law_from_z
 from .synthesis.spaces.free_pieces import PeriodicPieces as PeriodicPieces
-from .synthesis.spaces.splines import BSplines as BSplines
+from .synthesis.spaces.bases import BSplines as BSplines
 from .synthesis.status import Status as Status
 
 __version__: str

@@ -103,4 +103,4 @@ from .synthesis.solve import Bound as Bound
 from .synthesis.solve_many import Errors as Errors, Result as Result
 from .synthesis.spaces.bases import PolynomialBasis as PolynomialBasis
 from .synthesis.spaces.space import LawSpace as LawSpace
-from .synthesis.spaces.splines import PiecewiseBasis as PiecewiseBasis
+from .synthesis.spaces.bases import PiecewiseBasis as PiecewiseBasis

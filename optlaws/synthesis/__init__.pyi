@@ -44,5 +44,5 @@ from .spaces.bases import (
     basis as basis,
 )
 from .spaces.end_conditions import BoundaryConditions as BoundaryConditions, law_from_z as law_from_z
-from .spaces.splines import BSplines as BSplines, PiecewiseBasis as PiecewiseBasis
+from .spaces.bases import BSplines as BSplines, PiecewiseBasis as PiecewiseBasis
 from .status import Status as Status

@@ -17,8 +17,7 @@ from optlaws.numbers import bounded
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
-from optlaws.synthesis.spaces.bases import PolynomialBasis, Powers
-from optlaws.synthesis.spaces.splines import PiecewiseBasis
+from optlaws.synthesis.spaces.bases import PiecewiseBasis, PolynomialBasis, Powers
 from optlaws.synthesis.status import Status, gap_text, measure
 
 if TYPE_CHECKING:

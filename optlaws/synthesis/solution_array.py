@@ -27,10 +27,9 @@ from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.make import certificate, certify
 from optlaws.synthesis.solution import Solution, partly_known
-from optlaws.synthesis.spaces.bases import PolynomialBasis
+from optlaws.synthesis.spaces.bases import PiecewiseBasis, PolynomialBasis
 from optlaws.synthesis.spaces.of_basis import PolynomialSpace
 from optlaws.synthesis.spaces.space import LawSpace
-from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.synthesis.status import Status, measure, status_of
 from optlaws.synthesis.stored_rows import plain_error
 from optlaws.tolerances import OPTIMALITY_GAP

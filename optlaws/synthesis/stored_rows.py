@@ -27,8 +27,7 @@ from optlaws.synthesis.program.writer import evaluate, model_of, shortfalls
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import problem_of, stated
 from optlaws.synthesis.proof.no_law import beyond_limit, proof_of_no_law
-from optlaws.synthesis.spaces.bases import PolynomialBasis
-from optlaws.synthesis.spaces.splines import PiecewiseBasis
+from optlaws.synthesis.spaces.bases import PiecewiseBasis, PolynomialBasis
 from optlaws.synthesis.status import Status, status_of
 from optlaws.tolerances import STORED_VALUE
 

@@ -17,9 +17,8 @@ from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
-from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
+from optlaws.synthesis.spaces.bases import Basis, Pieces, PiecewiseBasis, PolynomialBasis
 from optlaws.synthesis.spaces.free_pieces import PeriodicPieces
-from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.tolerances import BOUND_FEASIBILITY, COEFFICIENT_ROUNDING
 from optlaws.verification.enclosing.balls import Extremes, ball, rational, upper
 from optlaws.verification.enclosing.pieces import PolynomialPiece

@@ -21,8 +21,7 @@ from optlaws.synthesis.limits.drive_limits import DriveLimit
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import evaluate
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
-from optlaws.synthesis.spaces.bases import PolynomialBasis
-from optlaws.synthesis.spaces.splines import PiecewiseBasis
+from optlaws.synthesis.spaces.bases import PiecewiseBasis, PolynomialBasis
 from optlaws.synthesis.status import measure
 from optlaws.synthesis.stored_rows import StatedSolution
 from optlaws.synthesis.stored_solutions import read_solutions

@@ -39,8 +39,7 @@ from optlaws.synthesis.limits.drive_limits import (
     planes_of_proof,
     unreachable,
 )
-from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
-from optlaws.synthesis.limits.phase_torque import ACCELERATION, AnyTorque
+from optlaws.synthesis.limits.phase_plane import ACCELERATION, AnyTorque, PhasePlane, TorqueLimit, VelocityLimit
 from optlaws.synthesis.limits.plane_of_problem import DriveObjective
 from optlaws.tolerances import CLOSURE, STATED_BOUND
 

@@ -23,10 +23,9 @@ from optlaws.formulas.reading import read
 from optlaws.kept import kept_property
 from optlaws.numbers import Array, not_negative, positive, power_of_two
 from optlaws.synthesis.limits.integrated import value_of
-from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
+from optlaws.synthesis.limits.phase_plane import AnyTorque, PhasePlane, TorqueLimit, torque_of
 from optlaws.synthesis.limits.phase_plane_bound import Guess, Potential, even_price, proven_bound
 from optlaws.synthesis.limits.phase_plane_program import PhaseOptimum, optimum
-from optlaws.synthesis.limits.phase_torque import AnyTorque, torque_of
 from optlaws.synthesis.limits.plane_of_problem import DriveObjective, plane_of, within_jerk
 from optlaws.synthesis.limits.standing import Standing, least_energy, standing_level, standing_sign
 from optlaws.synthesis.problem.problem import Problem

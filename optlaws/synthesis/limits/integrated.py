@@ -27,8 +27,7 @@ from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
 from optlaws.numerics.roots import falling_root
 from optlaws.synthesis.limits.elements import Elements
-from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
-from optlaws.synthesis.limits.phase_torque import AnyTorque
+from optlaws.synthesis.limits.phase_plane import AnyTorque, PhasePlane, TorqueLimit, VelocityLimit
 from optlaws.tolerances import INTEGRATION
 
 _BOUND_KEPT = 1e-7  # of a bound: a motion that is beyond it by so little keeps it

@@ -30,9 +30,8 @@ from optlaws.formulas.jets import formula_jet
 from optlaws.numbers import Array
 from optlaws.numerics.interval import Interval, between, exact
 from optlaws.numerics.taylor import Jet
-from optlaws.synthesis.limits.phase_plane import PhasePlane
+from optlaws.synthesis.limits.phase_plane import AnyTorque, PhasePlane
 from optlaws.synthesis.limits.phase_plane_cells import PI, CellBounds, Guess, Potential, ProofCells, positions
-from optlaws.synthesis.limits.phase_torque import AnyTorque
 from optlaws.synthesis.limits.standing import Standing
 from optlaws.tolerances import ROUNDOFF, SMALLEST_SIZE
 

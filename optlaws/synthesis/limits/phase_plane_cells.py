@@ -21,9 +21,8 @@ from optlaws.formulas.jets import formula_jet
 from optlaws.numbers import Array
 from optlaws.numerics.interval import Interval, between, chosen, exact
 from optlaws.numerics.taylor import Jet, variable
-from optlaws.synthesis.limits.phase_plane import PhasePlane
+from optlaws.synthesis.limits.phase_plane import GearTorque, PhasePlane, PhaseTorque
 from optlaws.synthesis.limits.phase_plane_velocity import InnerMinimum, entries_of
-from optlaws.synthesis.limits.phase_torque import GearTorque, PhaseTorque
 from optlaws.synthesis.limits.standing import Standing
 from optlaws.tolerances import ROUNDOFF, SMALLEST_SIZE
 

@@ -24,8 +24,14 @@ from optlaws.numbers import Array
 from optlaws.numerics.chebyshev import gauss
 from optlaws.numerics.cones import conic_optimum, usable
 from optlaws.synthesis.limits.elements import Elements
-from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit, VelocityLimit
-from optlaws.synthesis.limits.phase_torque import AnyTorque, GearTorque, PhaseTorque
+from optlaws.synthesis.limits.phase_plane import (
+    AnyTorque,
+    GearTorque,
+    PhasePlane,
+    PhaseTorque,
+    TorqueLimit,
+    VelocityLimit,
+)
 from optlaws.synthesis.limits.standing import Standing
 from optlaws.tolerances import SMALLEST_SIZE
 

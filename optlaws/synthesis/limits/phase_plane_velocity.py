@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.numbers import Array
-from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
-from optlaws.synthesis.limits.phase_torque import PhaseTorque
+from optlaws.synthesis.limits.phase_plane import PhasePlane, PhaseTorque, TorqueLimit
 from optlaws.synthesis.limits.standing import Standing
 
 _PHASE_TIE = 1e-7  # of a bound or of two torques: nearer values are equal, and the potential says at what price
@@ -35,7 +34,7 @@ class PricedTorque(TorqueLimit):
 def entries_of(plane: PhasePlane) -> list[PricedTorque]:
     """The torques that have prices, each of one form; the last one is the reference.
 
-    >>> from optlaws.synthesis.limits.phase_torque import ACCELERATION
+    >>> from optlaws.synthesis.limits.phase_plane import ACCELERATION
     >>> [entry.role for entry in entries_of(PhasePlane(squared=ACCELERATION, C=9.0))]
     ['squared', 'bound']
     """

@@ -12,8 +12,15 @@ from optlaws.errors import InputError
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Exponentiation, Formula, Number, Product, Sum, product
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, OfFormula
-from optlaws.synthesis.limits.phase_plane import PhasePlane, TorqueLimit
-from optlaws.synthesis.limits.phase_torque import ACCELERATION, AnyTorque, PhaseTorque, greater_power, torque_of
+from optlaws.synthesis.limits.phase_plane import (
+    ACCELERATION,
+    AnyTorque,
+    PhasePlane,
+    PhaseTorque,
+    TorqueLimit,
+    greater_power,
+    torque_of,
+)
 
 if TYPE_CHECKING:
     from optlaws.synthesis.problem.problem import Problem

@@ -31,8 +31,7 @@ from optlaws.numbers import Array
 from optlaws.numerics.branch_and_bound import extremes, integral
 from optlaws.numerics.interval import Interval, exact
 from optlaws.numerics.taylor import Jet, variable
-from optlaws.synthesis.limits.phase_plane import PhasePlane
-from optlaws.synthesis.limits.phase_torque import AnyTorque, GearTorque, PhaseTorque
+from optlaws.synthesis.limits.phase_plane import AnyTorque, GearTorque, PhasePlane, PhaseTorque
 from optlaws.tolerances import ROUNDOFF
 
 _ENCLOSED = 1e-12  # of a load's greatest magnitude: how near bounds of its least and of its work come

@@ -15,8 +15,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.numbers import MOST_ORDER, fractions, listed, whole
 from optlaws.numerics.exact import Polynomial, chebyshev_from_powers, edge, exact_powers, plus, shifted, times
-from optlaws.synthesis.spaces.bases import PolynomialBasis, Powers
-from optlaws.synthesis.spaces.splines import PiecewiseBasis
+from optlaws.synthesis.spaces.bases import PiecewiseBasis, PolynomialBasis, Powers
 
 
 def piecewise_law(

@@ -33,11 +33,10 @@ from optlaws.numerics.chebyshev import from_values, gegenbauer, nodes
 from optlaws.synthesis.families.family import ConstraintFamily, LinearFamily
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.families.piece_series import PieceSeries
-from optlaws.synthesis.spaces.bases import Basis, Chebyshev, Pieces, PolynomialBasis
+from optlaws.synthesis.spaces.bases import Basis, Chebyshev, Pieces, PiecewiseBasis, PolynomialBasis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, law_from_z
 from optlaws.synthesis.spaces.free_pieces import PeriodicPieces, PeriodicSpace, PieceSpace
 from optlaws.synthesis.spaces.space import LawSpace
-from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.tolerances import ROUNDOFF
 
 

@@ -14,9 +14,8 @@ from flint import arb, fmpq, fmpq_mat, fmpq_poly
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
+from optlaws.synthesis.spaces.bases import Basis, Pieces, PiecewiseBasis, PolynomialBasis
 from optlaws.synthesis.spaces.free_pieces import PeriodicPieces
-from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.verification.enclosing.balls import at, ball, rational
 
 Functions = list[fmpq_poly]
