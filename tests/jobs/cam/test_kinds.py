@@ -34,7 +34,7 @@ from optlaws import (
 from optlaws.verification import verify_all
 from tests.internals.explorer import CycleRequest, cam_view
 from tests.internals.files import reading
-from tests.internals.jobs import STARTERS, job, read_of_cam
+from tests.internals.jobs import STARTERS, job, read_of_cam, stored_cam
 
 MOTION = """
 [motion]
@@ -541,6 +541,19 @@ def test_a_search_for_the_proof_of_a_power_that_is_stopped_leaves_the_quick_boun
     assert reply["best"]["status"] == "local"
     assert 0.0 < reply["best"]["lower_bound"] < 0.99 * reply["best"]["objective"]
     assert "| local, gap " in page
+
+
+def test_a_cam_without_a_usual_law_beside_it_has_its_peaks_in_a_table(tmp_path: Path) -> None:
+    through = 'kind = "free"\nby = "35 mm"\nvia = [["40 deg", "12 mm"]]'
+    text = HEAD + 'prime_radius = "60 mm"\n' + ROLLER + MOTION.replace('kind = "rise"\nby = "35 mm"', through)
+    page, reply, _ = done(tmp_path, text)
+    peaks = dict(re.findall(r"\| (peak \w+) +\| ([\d.e+]+)", page))
+    motion = stored_cam(reply).plan
+    sizes = [1e3 * motion.peak(1), motion.peak(2), motion.peak(3)]
+    assert [float(peaks[f"peak {name}"]) for name in ("velocity", "acceleration", "jerk")] == pytest.approx(
+        sizes, rel=1e-4
+    )
+    assert "Modified sine cannot stand beside these laws" in page
 
 
 def test_lengths_that_are_likely_without_their_unit_are_the_first_sentence_of_a_page(tmp_path: Path) -> None:
