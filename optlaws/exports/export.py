@@ -336,8 +336,10 @@ class Export(TextFile):
             share = f"{off:.3g} {self.motion.units.slave} off the law, {100.0 * off / stroke:.2g} % of its stroke"
             far.append(f"is up to {share}")
         if _FAR_MORE < more < inf:
-            far.append(f"has {more:.3g} times its acceleration")
+            far.append(f"has {more:.3g} times the acceleration of the law")
         remedy = "take more points, or a format whose points are the joints of the motion, such as codesys-xyva"
+        if self.report.bound > (_FAR_MORE - 1.0) * self.report.law.peak(2):
+            remedy = "take fewer points, whose rounding is less, or leave out how many"
         return (f"the executed motion {' and '.join(far)}: {remedy}",) if far else ()
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:

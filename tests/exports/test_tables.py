@@ -388,7 +388,9 @@ def test_an_executed_motion_far_off_the_law_is_warned_of() -> None:
     assert warning in far.results()["notes"]
     assert ("warning", warning) in [(row.name, row.value) for row in far.summary()]
     (faster,) = slow.export("csv").warnings
-    assert "times its acceleration" in faster
+    assert "times the acceleration of the law: take more points" in faster
+    rounded = smoothstep(3).export("rockwell-cam", points=721, counts=4096, stroke="35 mm", master="120 deg")
+    assert "take fewer points, whose rounding is less" in rounded.warnings[0]
     joined = slow.export("codesys-xyva")
     assert joined.warnings == ()
     assert "warning" not in str(joined)
