@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from optlaws import Cycle, Drive, InputError
-from tests.explorer.talk import OPTIMAL, Server
+from tests.explorer.talk import OPTIMAL, Server, written
 from tests.explorer.test_page import go, saves, settle
 from tests.internals.explorer import cycle_view, example, law_view, machine_view, start
 from tests.internals.jobs import read_of_cycle_entries
@@ -319,3 +319,13 @@ def test_an_objective_that_is_no_choice_of_the_page_is_shown(page: Page, served:
     page.goto(served.link(laws=[OPTIMAL], view="cycle", machine=study))
     page.get_by_label("minimise", exact=True).wait_for()
     assert page.get_by_label("minimise", exact=True).input_value() == "rms load acceleration"
+
+
+def test_remarks_on_the_drive_are_read_and_are_no_numbers(served: Server) -> None:
+    asked = study("cycle_geared_table")
+    asked["axis"] = [asked["axis"][0] | {"drive": {**asked["axis"][0]["drive"], "ratio": 3.0}}]
+    asked["axis"][0].pop("limits", None)
+    answer = served.ask("machine", {"study": asked})
+    assert "remark" not in [row["name"] for row in answer["rows"]]
+    facts = [written(fact) for fact in answer["trust"]["facts"]]
+    assert any("the motor is overloaded" in fact for fact in facts)

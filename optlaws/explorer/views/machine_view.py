@@ -19,7 +19,14 @@ from optlaws.explorer.views import cycle_view
 from optlaws.explorer.views.cam_view import drawing
 from optlaws.explorer.views.cycle_view import CycleRequest, packaged_study
 from optlaws.explorer.views.law_view import refusal, refusing
-from optlaws.explorer.views.panel_data import beside_each_other, drawn, over_time, panel_data, segments_data
+from optlaws.explorer.views.panel_data import (
+    beside_each_other,
+    drawn,
+    fact_sentences,
+    over_time,
+    panel_data,
+    segments_data,
+)
 from optlaws.explorer.views.requests import MOST_LAWS, stored_law
 from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, cycle_of
 from optlaws.mechanisms.drives.effort import over_speed
@@ -100,6 +107,10 @@ def _trust(shown: Plan, others: Sequence[str], *, earlier: bool) -> dict[str, An
     if others:
         trust = trust or _GIVEN | {"facts": []}
         trust["facts"] += [f"{name}: law of the previous value, the optimum follows" for name in others]
+    remarks = fact_sentences(row for row in drive_rows(shown) if isinstance(row.value, str))
+    if remarks:
+        trust = trust or _GIVEN
+        trust = trust | {"facts": [*trust.get("facts", []), *remarks]}
     return trust
 
 
@@ -138,7 +149,8 @@ def _rows(laws: Sequence[Plan | OptlawsError]) -> list[dict[str, Any]]:
     """The load of each law on the drive, in the words of the library's summary."""
     known: dict[str, list[Row | None]] = {}
     for i, law in enumerate(laws):
-        for row in drive_rows(law) if isinstance(law, Plan) else ():
+        rows = drive_rows(law) if isinstance(law, Plan) else ()
+        for row in (row for row in rows if not isinstance(row.value, str)):  # remarks stand with the words of trust
             known.setdefault(row.name, [None] * len(laws))[i] = row
     return [
         {
