@@ -4,6 +4,7 @@ import json
 import shutil
 from collections.abc import Awaitable, Callable, Iterator
 from dataclasses import dataclass, field
+from functools import wraps
 from os import environ
 from threading import Thread
 from typing import TYPE_CHECKING, NoReturn
@@ -32,6 +33,7 @@ def remembering(answer: Callable[..., Awaitable[tuple[int, bytes]]]) -> Callable
     """What answers a heavy question as it was answered before."""
     known: dict[tuple[str, str], tuple[int, bytes]] = {}
 
+    @wraps(answer)
     async def remembered(workers: Workers, name: str, body: bytes, *patience: float) -> tuple[int, bytes]:
         if name not in HEAVY:
             return await answer(workers, name, body, *patience)

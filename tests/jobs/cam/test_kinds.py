@@ -405,7 +405,8 @@ def test_page_and_explorer_show_the_facts_of_one_report(tmp_path: Path) -> None:
     text = HEAD + 'prime_radius = "45 mm"\npressure_angle = "25 deg"\nradius_of_curvature = "40 mm"\n' + ROLLER + MOTION
     page, _, _ = done(tmp_path, text)
     study = CycleRequest(study=reading.toml(tmp_path / "small.toml"))
-    trust, sizes = cam_view.answer(study)["trust"], cam_view.sizes(study)["facts"]
+    trust, answer = cam_view.answer(study)["trust"], cam_view.sizes(study)
+    sizes, beside = answer["facts"], answer["beside"]["rows"]
     (first, second) = (line for line in page.splitlines() if line.startswith("Limits exceeded: "))
     assert trust["advice"] == f"{first.removesuffix('.')}; {second.removeprefix('Limits exceeded: ')}"
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in page.splitlines() if line.startswith("| ")]
@@ -413,14 +414,15 @@ def test_page_and_explorer_show_the_facts_of_one_report(tmp_path: Path) -> None:
     compared, (law, *extremes) = shown[:6], shown[6:]
     peaks = ["peak acceleration", "peak velocity", "peak jerk"]  # what is least stands first
     assert [row[0] for row in compared] == [*peaks, "greatest pressure angle", "prime circle", "least prime circle"]
-    for (name, usual, chosen, change, unit), fact in zip(compared, sizes[:6], strict=True):
-        assert fact == f"{name} {chosen} {unit}: {change}: modified sine has {usual} {unit}"
-    assert sizes[6] == f"{law[0]} {law[1]} {law[3]}: {law[4]}"
+    for (name, usual, chosen, change, unit), (shown_name, *both, shown_change) in zip(compared, beside, strict=True):
+        assert (shown_name, shown_change) == (name, change)
+        assert [f"{each.value:.5g} {each.unit}" for each in both] == [f"{usual} {unit}", f"{chosen} {unit}"]
+    assert sizes[0] == f"{law[0]} {law[1]} {law[3]}: {law[4]}"
     jerk, proof = sizes[-2:]
     assert jerk in page
     assert jerk.endswith("times that of modified sine: limit the jerk to less.")
     assert proof in page
-    for row, fact in zip(extremes, [*trust["facts"], *sizes[7:-2]], strict=True):
+    for row, fact in zip(extremes, [*trust["facts"], *sizes[1:-2]], strict=True):
         name, *values, unit, place = row
         ends = " to ".join(dict.fromkeys(f"{value} {unit}" for value in values))
         assert fact.startswith(f"{name} {ends} at ")
