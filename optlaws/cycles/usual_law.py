@@ -29,9 +29,9 @@ def usual_cycle(cycle: Cycle) -> Cycle | None:
     >>> round(usual.peak(2), 4), usual_cycle(usual) is None
     (19.348, True)
     """
-    moves = [i for i, each in enumerate(cycle.segments) if may_have_another_law(each)]
-    if all(getattr(cycle.segments[i], "law", None) == USUAL for i in moves):
+    if _has_usual_law(cycle):
         return None
+    moves = [i for i, each in enumerate(cycle.segments) if may_have_another_law(each)]
     try:
         usual_moves = {i: replace(with_law(USUAL, cycle.segments[i]), limits={}) for i in moves}  # type: ignore[type-var] # dataclasses
         segments = [usual_moves.get(i, each) for i, each in enumerate(cycle.segments)]
@@ -43,7 +43,7 @@ def usual_cycle(cycle: Cycle) -> Cycle | None:
 
 
 def why_without_usual_law(cycle: Cycle) -> str:
-    """Why no usual law can stand beside a cycle of other laws; empty where it stands there, or is its own law.
+    """Why a cycle has no `usual_cycle`; empty where that law is its own.
 
     Examples
     --------
@@ -52,10 +52,14 @@ def why_without_usual_law(cycle: Cycle) -> str:
     >>> why_without_usual_law(Cycle([through, Return("60 mm")], period="1 s"))
     'modified sine cannot stand beside these laws: it goes from rest to rest, and not all of these moves do'
     """
-    moves = [each for each in cycle.segments if may_have_another_law(each)]
-    if not any(getattr(each, "law", None) != USUAL for each in moves) or usual_cycle(cycle) is not None:
+    if _has_usual_law(cycle):
         return ""
     return f"{USUAL} cannot stand beside these laws: it goes from rest to rest, and not all of these moves do"
+
+
+def _has_usual_law(cycle: Cycle) -> bool:
+    """Whether all moves that may have another law have the usual one."""
+    return all(getattr(each, "law", None) == USUAL for each in cycle.segments if may_have_another_law(each))
 
 
 def may_have_another_law(segment: CycleSegment) -> bool:
