@@ -254,9 +254,7 @@ class CamForces:
     @kept_property
     def pressure(self) -> Extremes:
         """Least and greatest of Hertz's pressure, enclosed over the turn; 0 where the follower lifts off."""
-        square = self._enclosed(self._squared_pressure)
-        sizes = {name: sqrt(max(getattr(square, name), 0.0)) for name in ("least", "low", "most", "high")}
-        return square._replace(**sizes)
+        return roots(self._enclosed(self._squared_pressure))
 
     @kept_property
     def mean_torque(self) -> tuple[float, float]:
@@ -375,6 +373,13 @@ class CamForces:
             if undercut.status != UNDERCUT:
                 raise
             raise InputError(f"the follower cannot follow the cam, so that there is no pressure: {undercut}") from None
+
+
+def roots(square: Extremes, rounding: float = 0.0) -> Extremes:
+    """The square roots of extremes, 0 where the square is below 0 or `rounding` of its greatest value."""
+    sizes = {name: getattr(square, name) for name in ("least", "low", "most", "high")}
+    least = max(rounding * square.most, 0.0)
+    return square._replace(**{name: sqrt(size) if size > least else 0.0 for name, size in sizes.items()})
 
 
 def plain_extremes(enclosure: Extremes) -> dict[str, float]:

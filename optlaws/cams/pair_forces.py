@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.forces import CamForces, ProcessByAngle, plain_extremes
+from optlaws.cams.forces import CamForces, ProcessByAngle, plain_extremes, roots
 from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.mechanism_formulas import LinearForce
 from optlaws.numbers import Array
@@ -125,12 +125,13 @@ class PairForces(CamForces):
     @kept_property
     def pressure(self) -> Extremes:
         """Least and greatest of Hertz's pressure of the first cam, enclosed over the turn."""
-        return _roots(self._enclosed(self._squared_pressure))
+        return roots(self._enclosed(self._squared_pressure), FORCE_ROUNDING)
 
     @kept_property
     def pressure_of_return(self) -> Extremes:
         """Least and greatest of Hertz's pressure of the return cam, enclosed over the turn."""
-        return _roots(self._enclosed(self._only_of_return(self.on_return._squared_pressure)))  # noqa: SLF001
+        square = self._enclosed(self._only_of_return(self.on_return._squared_pressure))  # noqa: SLF001
+        return roots(square, FORCE_ROUNDING)
 
     @property
     def pressed_by_return(self) -> list[tuple[float, float]]:
@@ -174,10 +175,3 @@ class PairForces(CamForces):
         if isinstance(angle, Interval):
             return Jet([chosen(pressed, *pair) for pair in both])
         return Jet([np.where(pressed, *pair) for pair in both])
-
-
-def _roots(square: Extremes) -> Extremes:
-    """The square roots of extremes, 0 where the square is rounding of its greatest value."""
-    sizes = {name: getattr(square, name) for name in ("least", "low", "most", "high")}
-    rounding = FORCE_ROUNDING * square.most
-    return square._replace(**{name: size**0.5 if size > rounding else 0.0 for name, size in sizes.items()})
