@@ -34,7 +34,7 @@ from optlaws.numbers import chop
 from optlaws.plots.cam import cam_figure, forces_figure, pair_figure
 from optlaws.sentences import Amount, Sentence, capital, quantity_name, sentence
 from optlaws.shown.report import ReportTable, Section
-from optlaws.shown.summary import PAGE_UNITS, Row
+from optlaws.shown.summary import Row
 from optlaws.studies.problem_entries import steady
 from optlaws.synthesis.status import Status
 from optlaws.tolerances import FORCE_ROUNDING
@@ -71,8 +71,7 @@ class CamResult(SoughtCam):
         if self.spec.radius is None and self.spec.best != "laws":
             chosen.pop("least prime circle", None)  # it is the prime circle
         if usual is None:
-            shown = [(name, value, *PAGE_UNITS.get(unit, (unit, 1.0))) for name, (value, unit) in chosen.items()]
-            rows = [Row(quantity_name(name), factor * value, unit) for name, value, unit, factor in shown]
+            rows = [Row(quantity_name(name), *value).on_page() for name, value in chosen.items()]
             table = ReportTable(["what", "value", "unit"], [[row.name, row.value, row.unit] for row in rows])
             why = why_without_usual_law(self.spec.cycle) if self.plan.solutions else ""
             return Section("Peaks and sizes", rows, table, note=capital(f"{why}.") if why else "", digits=DIGITS)
