@@ -119,7 +119,8 @@ def answer_from(connection: Connection) -> None:
     Thread(target=_end_with_the_server, daemon=True).start()
     while True:
         try:
-            name, body, seconds, OPENED.text = connection.recv()
+            name, body, seconds, results = connection.recv()
+            OPENED.text = OPENED.text if results is None else results
             _end_after(seconds)
             reply = answered(name, body)
             _end_after(0.0)

@@ -27,8 +27,11 @@ _SHOWN = frozenset({"cam", "fastest"})
 _CYCLES = {"fastest": "fastest", "interlocks": "axes"}
 
 
-def start(given: str | None) -> dict[str, Any]:
-    """The page's first state for a law's name or file, a problem file or a solution; an optimal law unless given."""
+def start(given: str | None, results: str = "") -> dict[str, Any]:
+    """The page's first state for a law's name or file, a problem file or a solution; an optimal law unless given.
+
+    `results` is the text of a file that was read already, as `results_of` gives it.
+    """
     if given is None:
         return _law({"problem": dict(_FIRST)})
     if is_problem(given):
@@ -39,14 +42,16 @@ def start(given: str | None) -> dict[str, Any]:
     if not is_file(given):
         read_law(given)
         return _law({"name": given})
-    return _of_text(given, reading.text(Path(given), legacy=not given.lower().endswith(".json")))
+    return _of_text(given, results or reading.text(Path(given), legacy=not given.lower().endswith(".json")))
 
 
 def results_of(given: str | None, text: str | None = None) -> str:
     """The text of a file of results, read unless it is given; empty where what is given is none."""
     if given is None or not given.lower().endswith(".json"):
         return ""
-    return reading.text(Path(given)) if text is None else text
+    if text is None:
+        return reading.text(Path(given)) if is_file(given) else ""
+    return text
 
 
 def _law(law: dict[str, Any]) -> dict[str, Any]:

@@ -46,6 +46,7 @@ class Worker:
         self._process.start()
         its_own.close()
         self._ended = False
+        self._results = ""  # the file of results that the process knows
 
     @property
     def alive(self) -> bool:
@@ -68,7 +69,8 @@ class Worker:
     def answer(self, name: str, body: bytes, patience: float, results: str) -> Reply:
         """Wait for the answer to a question; if the process ends first, it is a sentence that reports it."""
         try:
-            self._connection.send((name, body, patience, results))
+            self._connection.send((name, body, patience, None if results == self._results else results))
+            self._results = results
             reply: Reply = self._connection.recv()
         except (EOFError, OSError):
             self._process.join()

@@ -21,4 +21,5 @@ def explore(file: str | None = None, /, *, port: Whole | None = None, no_browser
     from optlaws.explorer.server import explore as serve
     from optlaws.explorer.start import results_of, start
 
-    serve(start(file), results_of(file), port, browser=not no_browser)
+    results = results_of(file)
+    serve(start(file, results), results, port, browser=not no_browser)

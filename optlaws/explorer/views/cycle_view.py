@@ -135,9 +135,7 @@ def stored(spec: CycleProblemFile, axis: AxisEntries) -> Plan:
 @lru_cache(maxsize=128)
 def _solved(axis: AxisEntries, speed: NumberOrQuantity | None, period: NumberOrQuantity | None) -> Plan:
     motor, drive = (axis.drive or {}).get("motor"), axis.drive or {}
-    cycle = cycle_of(axis, speed, period)
-    known = OPENED.plan_of(cycle)
-    if known is not None:
+    if OPENED.text and (known := OPENED.plan_of(cycle_of(axis, speed, period))) is not None:
         return known
     if isinstance(motor, Mapping) and LIMITING & motor.keys() and not axis.limits.get("motor"):
         # the laws stay while a limit of the motor is dragged
@@ -146,7 +144,7 @@ def _solved(axis: AxisEntries, speed: NumberOrQuantity | None, period: NumberOrQ
         with located("drive"), located("motor"):
             limited = Motor.from_dict(motor)
         return _solved(same, speed, period).with_motor(limited)
-    return cycle.unchecked()
+    return cycle_of(axis, speed, period).unchecked()
 
 
 def _segments(report: CycleReport) -> Iterator[dict[str, Any]]:

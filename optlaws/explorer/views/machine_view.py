@@ -156,7 +156,7 @@ def _rows(laws: Sequence[Plan | OptlawsError]) -> list[dict[str, Any]]:
         {
             "name": name,
             "unit": next(row.unit for row in rows if row is not None),
-            "values": [None if row is None or isinstance(row.value, str) else bounded(row.value) for row in rows],
+            "values": [None if row is None else bounded(row.value) for row in rows],
             "note": next((row.note for row in rows if row is not None and row.note != _WEAK), ""),
             "over": [row is not None and row.note == _WEAK for row in rows],
         }
