@@ -14,7 +14,7 @@ from math import comb
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from optlaws.cycles.old_tables.samples import LEAST_NOISE, MEDIAN, Samples, rests_exactly
+from optlaws.cycles.old_tables.samples import LEAST_NOISE, MEDIAN, Mask, Samples, rests_exactly
 from optlaws.numbers import Array
 
 #: by how much even steps differ, of their median; and rows that tell smoothed noise from other noise, at least
@@ -46,8 +46,9 @@ def as_independent(samples: Samples) -> Samples:
     steps, sizes = np.diff(samples.places), dict[int, float]()
     if np.ptp(steps) > _EVEN * np.median(steps) or len(steps) < _FEWEST_ROWS:
         return samples
+    rests = rests_exactly(samples.heights)
     for stride in _STRIDES:
-        by_order = _sizes(samples, stride)
+        by_order = _sizes(samples.heights, rests, stride)
         if len(by_order) == len(_ORDERS) and max(by_order) < _WHITE * min(by_order):
             sizes[stride] = float(np.median(by_order))
     least = max(samples.digit, LEAST_NOISE * float(np.ptp(samples.heights)))
@@ -72,9 +73,9 @@ def _fit(sizes: Mapping[int, float], rows: int) -> tuple[float, float]:
     return float(np.abs(logs - middle).mean()), float(np.exp(middle))
 
 
-def _sizes(samples: Samples, stride: int) -> list[float]:
+def _sizes(heights: Array, rests: Mask, stride: int) -> list[float]:
     """The standard deviations that differences of rows so far apart show, for each order of which there are enough."""
-    heights, rests, sizes = samples.heights, rests_exactly(samples.heights), []
+    sizes = []
     for order in _ORDERS:
         if len(heights) < order * stride + _FEWEST:
             break
