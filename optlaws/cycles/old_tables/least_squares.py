@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import BPoly, BSpline
+from scipy.linalg.lapack import dgeqrf
 
 from optlaws.cycles.old_tables.curve_fit import CANDIDATES, DEGREE, CurveFit, End, Joint, basis
 from optlaws.numbers import Array
@@ -105,6 +106,12 @@ def _knots(start: float, stop: float, joints: Sequence[Joint], pieces: int, degr
     return np.array([*[start] * (degree + 1), *inner, *[stop] * (degree + 1)])
 
 
+@cache
+def _between(count: int, before: int, behind: int) -> Array:
+    """The columns of the unit matrix without so many of the first and of the last ones."""
+    return np.eye(count)[:, before : count - behind]
+
+
 @dataclass(frozen=True, eq=False)
 class LeastSquares:
     """Fits splines to rows between two ends, or round a turn in which they advance."""
@@ -133,21 +140,23 @@ class LeastSquares:
         knots = _knots(start, stop, joints, pieces, self.degree)
         low, high = int(self.x.searchsorted(start)), int(self.x.searchsorted(stop, side="right"))
         outside = float(self._about_lines[0][low] + self._about_lines[1][high])
-        turned, coefficients = self._known(knots)
-        free = turned.shape[1]
+        free = len(knots) - self.degree - 1 - self.fixed
         parameters = free + len(joints) + sum(end.line is not None for end in self.ends)
         if high - low < free + _LEFT:
             return np.inf, parameters, None
         few = self._equations(knots, slice(low, high))
-        left = few[:, -1] - few[:, :-1] @ coefficients
-        r: Array = np.asarray(np.linalg.qr(np.column_stack([few[:, :-1] @ turned, left]), mode="r"))
-        size = np.abs(np.diag(r)[:free])
+        turned, coefficients = self._known(knots)
+        matrix = np.empty((len(few), free + 1), order="F")
+        matrix[:, :free] = few[:, :-1] @ turned
+        matrix[:, free] = few[:, -1] - few[:, :-1] @ coefficients
+        r = dgeqrf(matrix, overwrite_a=True)[0]
+        size = np.abs(r.diagonal()[:free])
         if len(r) < free or (free and size.min() <= 1e-10 * size.max()):
             return np.inf, parameters, None
         squares = outside + (float(r[free, free]) ** 2 if len(r) > free else 0.0)
         if not whole:
             return squares, parameters, None
-        factor = turned @ np.linalg.inv(r[:free, :free])
+        factor = turned @ np.linalg.inv(np.triu(r[:free, :free]))
         spline = BSpline(knots, coefficients + factor @ r[:free, free], self.degree)
         if np.ptp(spline(knots[:-1, None] + np.diff(knots)[:, None] * _LOOKED_AT)) > _SWINGING * np.ptp(self.y):
             return np.inf, parameters, None
@@ -313,23 +322,22 @@ class LeastSquares:
     def _known(self, knots: Array) -> tuple[Array, Array]:
         """A matrix and a vector that make all coefficients of a spline out of those that its ends leave free."""
         count, degree = len(knots) - self.degree - 1, self.degree
-        coefficients, fixed = np.zeros(count), np.zeros(count, dtype=bool)
-        for end, first, contact in zip(self.ends, (0, count - self._contacts[1]), self._contacts, strict=True):
-            if end.line is not None:
-                # the coefficients of a straight line are its positions at the means of knots
-                means = np.convolve(knots[first + 1 : first + contact + degree], np.full(degree, 1.0 / degree), "valid")
-                fixed[first : first + contact] = True
-                coefficients[first : first + contact] = end.value(means)
-        turned = np.eye(count)
+        coefficients = np.zeros(count)
         if self.advance is not None:
+            turned = np.eye(count)
             for nu in range(self.continuity + 1):
                 first, last = (basis(knots, knots[[at]], degree, nu)[0] for at in (0, -1))
                 differs = (first - last) / last[-1 - nu]
                 differs[-1 - nu] = 0.0
                 turned[-1 - nu] = differs @ turned
                 coefficients[-1 - nu] = differs @ coefficients + (self.advance if nu == 0 else 0.0)
-                fixed[-1 - nu] = True
-        return turned[:, ~fixed], coefficients
+            return turned[:, : count - self.fixed], coefficients
+        known = [0 if end.line is None else n for end, n in zip(self.ends, self._contacts, strict=True)]
+        for end, first, contact in zip(self.ends, (0, count - known[1]), known, strict=True):
+            # the coefficients of a straight line are its positions at the means of knots
+            means = [sum(knots[i + 1 : i + 1 + degree].tolist()) / degree for i in range(first, first + contact)]
+            coefficients[first : first + contact] = end.value(np.array(means))
+        return _between(count, *known), coefficients
 
     def placed(self, fit: tuple[float, float], joints: Sequence[Joint], pieces: int) -> tuple[Joint, ...]:
         """Joints moved to where the sum of squares is least."""

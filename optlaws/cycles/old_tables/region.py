@@ -16,7 +16,7 @@ from optlaws.cycles.old_tables.fitting import AS_LIKELY, EVIDENT, SIMPLE, UNRESO
 from optlaws.cycles.old_tables.peak_intervals import PeakInterval, least_peak, most_peak
 from optlaws.cycles.old_tables.rests_and_lines import FEWEST, NOISE_ROOM, Line, joined_over_seam, lines_of
 from optlaws.cycles.old_tables.samples import MEDIAN, Samples, gaps_of, off_both_sides, turning_points
-from optlaws.cycles.old_tables.standard import JUMP, Chain, Outline, criterion, spline_of
+from optlaws.cycles.old_tables.standard import ALIKE, JUMP, Chain, Outline, criterion, spline_of
 from optlaws.numbers import Array
 from optlaws.numerics.roots import bisect
 
@@ -51,8 +51,6 @@ _ALONE = 0.5
 _BLENDS = np.arange(2.0, 65.0, 2.0)
 #: standard laws that are fitted together
 _MOST_MOVES = 4
-#: standard laws whose sums of squares differ by less are told apart by no table
-_ALIKE = 16.0
 #: steps of a chord are so much less than the rows of a region; of the greatest slope: it stops where chords have less
 _CHORDS, _STOPPED = 60, 0.05
 #: how many lengths of a blend are compared
@@ -437,14 +435,14 @@ class Region:
             # a rest so short that its rows look like a crest
             long = float(np.median(np.diff(self.x))) * FEWEST
             resting = outline.chains(min(long, 0.2 * float(np.diff(places).min())))
-            if resting[0].squares < chains[0].squares - _ALIKE:
+            if resting[0].squares < chains[0].squares - ALIKE:
                 chains = resting
         nearest = chains[0]
         smooth = outline.smoothly(nearest)
         if smooth and self._criterion(smooth) <= self._criterion(nearest):
             nearest = smooth
         rounded = nearest.rounded(self.x, self.y, self.noise, self.digit, bounds)
-        return [rounded, *(each for each in chains if each.squares <= chains[0].squares + _ALIKE)]
+        return [rounded, *(each for each in chains if each.squares <= chains[0].squares + ALIKE)]
 
     def _of_chain(self, chains: Sequence[Chain], fits: Sequence[CurveFit]) -> Iterator[FittedMove]:
         chain = chains[0]

@@ -22,12 +22,15 @@ from optlaws.numbers import Array
 _ROUGH_STEPS, _CLOSE_STEPS = 8, 40
 #: of the sum of squares: steps that lower it by less are the last ones
 _LAST_STEP = 1e-12
-#: of the diagonal of the normal equations: what a fit begins with, and the most that leaves a step of any use
-_DAMPING, _MOST_DAMPING = 1e-3, 1e9
+#: of the diagonal of the normal equations: what a fit begins with, the least, and the most with which a step is of use
+_DAMPING, _LEAST_DAMPING, _MOST_DAMPING = 1e-3, 1e-14, 1e9
 #: rows by which laws are ranked, and how many of the best are compared, of a single move and of several
 _RANKED_BY, _COMPARED, _COMBINED = 60, 4, 3
 #: rows by which chains are compared, and how many of the best of these are fitted to all rows
 _COMPARED_BY, _FITTED = 240, 6
+#: standard laws whose sums of squares differ by less are told apart by no table; and with how many times the least sum,
+#: of the rows by which they are compared, none can be nearest
+ALIKE, _COMPARABLE = 16.0, 1.5
 #: mean of squares from which on no chain is near the rows, and the best one alone is of interest
 _FAR_OFF = 100.0
 #: of the length of a chain: its moves are longer
@@ -170,8 +173,8 @@ def _smoothed(
     moved = places.copy()
     for side, (end, beside) in enumerate(((0, 1), (-1, -2))):
         if smooth[side]:
-            strokes = (heights[beside] - heights[end]) / slopes[side]
-            moved[beside] = places[end] + _velocity_at(names, side) * strokes
+            strokes = (heights[..., beside] - heights[..., end]) / slopes[side]
+            moved[..., beside] = places[..., end] + _velocity_at(names, side) * strokes
     return moved
 
 
@@ -194,29 +197,44 @@ def _positions(names: Sequence[str], places: Array, heights: Array, x: Array) ->
     return y
 
 
-#: positions and velocities of a law, by its name, at places from 0 to 1
-_Laws: TypeAlias = Callable[[str, Array], tuple[Array, Array]]
+#: positions and velocities of the laws of several moves, by their names, at places of shape (moves, rows); they
+#: rest before 0 and behind 1
+_Laws: TypeAlias = Callable[[Sequence[str], Array], tuple[Array, Array]]
 
 
-def _exact(name: str, u: Array) -> tuple[Array, Array]:
-    law = catalogue[name].law
-    return np.asarray(law(u)), np.asarray(law(u, 1))
+def _exact(names: Sequence[str], u: Array) -> tuple[Array, Array]:
+    a, b = (u >= 1.0).astype(np.float64), np.zeros(u.shape)
+    for i, name in enumerate(names):
+        if name:
+            inside = (u[i] > 0.0) & (u[i] <= 1.0)
+            law = catalogue[name].law
+            a[i, inside], b[i, inside] = law(u[i, inside]), law(u[i, inside], 1)
+    return a, b
 
 
 @cache
-def _sampled(name: str) -> tuple[Array, Array]:
-    return _exact(name, np.linspace(0.0, 1.0, _INTERVALS + 1))
+def _sampled() -> tuple[Array, Array]:
+    """Positions and velocities at even places, a row for each law of the catalogue, and one of rests."""
+    even = np.linspace(0.0, 1.0, _INTERVALS + 1)
+    return (
+        np.array([*(law.law(even) for law in catalogue.values()), np.zeros_like(even)]),
+        np.array([*(law.law(even, 1) for law in catalogue.values()), np.zeros_like(even)]),
+    )
 
 
-def _interpolated(name: str, u: Array) -> tuple[Array, Array]:
+def _interpolated(names: Sequence[str], u: Array) -> tuple[Array, Array]:
     """Positions and velocities by cubics between even places, which cost little."""
-    a, b = _sampled(name)
+    rows = {name: i for i, name in enumerate([*catalogue, ""])}
+    first = np.array([rows[name] for name in names], dtype=np.intp)[:, None] * (_INTERVALS + 1)
+    inside = (u > 0.0) & (u <= 1.0)
+    u = np.clip(u, 0.0, 1.0)
     at = np.minimum((u * _INTERVALS).astype(np.intp), _INTERVALS - 1)
     t = u * _INTERVALS - at
-    rise, before, after = a[at + 1] - a[at], b[at] / _INTERVALS, b[at + 1] / _INTERVALS
+    a, b = (each.take(first + at + np.arange(2)[:, None, None]) for each in _sampled())
+    rise, before, after = a[1] - a[0], b[0] / _INTERVALS, b[1] / _INTERVALS
     second, third = 3.0 * rise - 2.0 * before - after, before + after - 2.0 * rise
     slope = before + t * (2.0 * second + 3.0 * t * third)
-    return a[at] + t * (before + t * (second + t * third)), slope * _INTERVALS
+    return a[0] + t * (before + t * (second + t * third)), inside * slope * _INTERVALS
 
 
 @dataclass(frozen=True, eq=False)
@@ -259,21 +277,23 @@ class Outline:
         compared = _COMPARED if moves == 1 else _COMBINED if moves <= _MOST_COMBINED else 1
         best = [names[:compared] for names in self._ranks]
         outline = self._resting(resting) if resting else self
-        chains = [tuple(_woven(names, [""] * (moves - 1) if resting else [])) for names in product(*best)]
+        tried = [tuple(_woven(names, [""] * (moves - 1) if resting else [])) for names in product(*best)]
         some = outline.of_rows(slice(None, None, max(1, len(self.x) // _COMPARED_BY)))
-        squares = {names: some.fitted(names, _interpolated, _CLOSE_STEPS).squares for names in chains}
-        chains.sort(key=squares.__getitem__)
-        fitted = _FITTED if squares[chains[0]] < _FAR_OFF * len(some.x) else 1
-        return sorted((outline.exactly(names) for names in chains[:fitted]), key=lambda chain: chain.squares)
+        rough = sorted(some.fitted(tried, _interpolated, _CLOSE_STEPS), key=_squares)
+        least = rough[0].squares
+        near = [chain for chain in rough[:_FITTED] if chain.squares <= _COMPARABLE * least + 2.0 * ALIKE]
+        if least >= _FAR_OFF * len(some.x):
+            near = near[:1]
+        return sorted(map(outline.exactly, near), key=_squares)
 
     def of_rows(self, rows: slice | NDArray[np.intp]) -> Outline:
         """The outline with some of its rows."""
         return replace(self, x=self.x[rows], y=self.y[rows], noise=self.noise[rows])
 
-    def exactly(self, names: tuple[str, ...]) -> Chain:
-        """The chain of given laws that is nearest the rows, of the laws themselves."""
-        rough = self.fitted(names, _interpolated, _CLOSE_STEPS)
-        return replace(self, places=rough.places, heights=rough.heights).fitted(names, _exact, _CLOSE_STEPS)
+    def exactly(self, rough: Chain) -> Chain:
+        """The chain of the same laws that is nearest the rows, of the laws themselves."""
+        outline = replace(self, places=rough.places, heights=rough.heights)
+        return outline.fitted([rough.names], _exact, _CLOSE_STEPS)[0]
 
     def smoothly(self, chain: Chain) -> Chain | None:
         """The chain that meets lines with their velocities where its laws nearly do; None where none does."""
@@ -281,7 +301,7 @@ class Outline:
         if not any(smooth) or len(chain.places) != len(self.places) or (all(smooth) and len(self.places) == 2):
             return None
         outline = replace(self, places=chain.places, heights=chain.heights, smooth=(smooth[0], smooth[1]))
-        return outline.fitted(chain.names, _exact, _CLOSE_STEPS)
+        return outline.fitted([chain.names], _exact, _CLOSE_STEPS)[0]
 
     def _resting(self, length: float) -> Outline:
         """The outline with rests of a length where the moves meet."""
@@ -307,9 +327,9 @@ class Outline:
         wide = 0.4 * float(np.ptp(ends))
         single = replace(single, bounds=(ends[0] - wide, ends[1] + wide))
         # beside a line another one is no move, but would be two corners in place of a smooth change
-        names = [name for name in catalogue if name != "constant velocity" or not any(slopes)]
-        costs = [(single.fitted((name,), _interpolated, _ROUGH_STEPS).squares, name) for name in names]
-        return [name for _, name in sorted(costs)]
+        names = [(name,) for name in catalogue if name != "constant velocity" or not any(slopes)]
+        chains = single.fitted(names, _interpolated, _ROUGH_STEPS)
+        return [chain.names[0] for chain in sorted(chains, key=lambda chain: (chain.squares, chain.names))]
 
     def _freedom(self, names: Sequence[str]) -> tuple[NDArray[np.intp], Array]:
         """Which height each one is, and how all places and heights change with those that are free, as a matrix."""
@@ -329,80 +349,135 @@ class Outline:
             if self.smooth[at_end]:
                 velocity = _velocity_at(names, at_end) / self.slopes[at_end]
                 spread[beside] = spread[end] + velocity * (spread[count + beside] - spread[count + end])
+        if self.turn:
+            spread[count - 1] = spread[0]
         return source, spread[:, [column for column in range(spread.shape[1]) if spread[:, column].any()]]
 
-    def fitted(self, names: tuple[str, ...], laws: _Laws, steps: int) -> Chain:
-        """The chain of given laws whose places, and heights that are not known, are nearest the rows."""
-        count = len(self.places)
-        source, spread = self._freedom(names)
-        begun = _smoothed(names, np.clip(self.places, *self.bounds), self.heights[source], self.slopes, self.smooth)
-        ends = np.concatenate([begun, self.heights[source]])
-        if self.turn:
-            spread[count - 1, 0], ends[count - 1] = 1.0, ends[0] + self.turn
-            spread, ends[-1] = np.delete(spread, count - 1, axis=1), ends[-1] + self.advance
-        left, matrix = self._missed(names, laws, ends)
-        squares, damping = float(left @ left), _DAMPING
-        matrix = matrix @ spread
-        for _ in range(steps):
-            normal, side = matrix.T @ matrix, matrix.T @ left
-            scaled = normal + np.diag(damping * np.diag(normal) + np.finfo(np.float64).tiny)
-            step = np.linalg.lstsq(scaled, -side, rcond=None)[0]
-            tried = ends + spread @ step
-            inside = np.clip(tried[:count], *self.bounds)
-            tried[[count, -1]] += self.slopes * (inside - tried[:count])[[0, -1]]
-            tried[:count] = _smoothed(names, inside, tried[count:], self.slopes, self.smooth)
-            tried[count - 1] = tried[0] + self.turn if self.turn else tried[count - 1]
-            if np.all(np.diff(tried[:count]) > _APART * np.ptp(self.places)):
-                new_left, slopes = self._missed(names, laws, tried)
-                new = float(new_left @ new_left)
-            else:
-                new = np.inf
-            if new < squares:
-                last = squares - new <= _LAST_STEP * squares
-                ends, left, matrix, squares, damping = tried, new_left, slopes @ spread, new, 0.1 * damping
-                if last:
-                    break
-            elif damping > _MOST_DAMPING or -side @ step <= _LAST_STEP * squares:
-                break
-            else:
-                damping *= 10.0
-        variance = max(squares / max(len(left) - len(step), 1), 1.0)
-        deviations = np.sqrt(variance * np.maximum(np.diag(spread @ np.linalg.pinv(matrix.T @ matrix) @ spread.T), 0.0))
-        free_ends = spread.shape[1]
-        return Chain(
-            names, ends[:count], ends[count:], squares, free_ends, deviations, self.turn, self.advance, self.slopes,
-            self.smooth,
-        )  # fmt: skip
+    def fitted(self, names: Sequence[tuple[str, ...]], laws: _Laws, steps: int) -> list[Chain]:
+        """The chains of given laws, with rests in the same places, whose ends that are not known are nearest the rows.
 
-    def _missed(self, names: Sequence[str], laws: _Laws, ends: Array) -> tuple[Array, Array]:
-        """How far a chain misses the rows, in deviations of their noise, and its derivatives by places and heights."""
-        count = len(ends) // 2
-        places, heights = ends[:count], ends[count:]
-        at, heights_at, noise = self.x, self.y, self.noise
+        By the method of Levenberg and Marquardt, all chains at once.
+        """
+        source, spread = self._freedom(names[0])
+        begun = np.concatenate([self.places, self.heights[source]])
+        begun[-1] += self.advance
+        fit = _Fit(self, names, laws, spread, np.tile(begun, (len(names), 1)))
+        fit.improve(steps)
+        return fit.chains()
+
+    def missed(self, names: Sequence[Sequence[str]], laws: _Laws, ends: Array) -> tuple[Array, Array]:
+        """How far chains miss the rows, in deviations of their noise, and the derivatives by places and heights.
+
+        Arrays of shape (chains, rows), and (chains, rows, places and heights).
+        """
+        count = len(self.places)
+        places, heights = ends[:, :count, None], ends[:, count:, None]
+        turns = np.floor((self.x - places[:, 0]) / self.turn) if self.turn else 0.0
+        x = self.x - turns * self.turn
+        length, stroke = np.diff(places, axis=1), np.diff(heights, axis=1)
+        u = (x[..., None, :] - places[:, :-1]) / length
+        moves = [name for chain in names for name in chain]
+        a, b = (each.reshape(u.shape) for each in laws(moves, u.reshape(len(moves), len(self.x))))
+        before, behind = x <= places[:, 0], x > places[:, -1]
+        lines = self.slopes[0] * before * (x - places[:, 0]) + self.slopes[1] * behind * (x - places[:, -1])
+        y = heights[:, 0] + (stroke * a).sum(axis=1) + lines
+        slopes = np.zeros((len(ends), 2 * count, len(self.x)))
+        pace = stroke / length * b
+        slopes[:, : count - 1] -= pace * (1.0 - u)
+        slopes[:, 1:count] -= pace * u
+        slopes[:, 0] -= self.slopes[0] * before
+        slopes[:, count - 1] -= self.slopes[1] * behind
+        slopes[:, count] = 1.0
+        slopes[:, count:-1] -= a
+        slopes[:, count + 1 :] += a
+        off = y - (self.y - turns * self.advance)
+        return off / self.noise, (slopes / self.noise).transpose(0, 2, 1)
+
+    def inside(self, names: tuple[str, ...], ends: Array) -> Array:
+        """Places and heights with places in the bounds, and on the lines and round the turn as chains are."""
+        count = len(self.places)
+        moved = ends.copy()
+        places = np.clip(ends[:, :count], *self.bounds)
+        moved[:, [count, -1]] += self.slopes * (places - ends[:, :count])[:, [0, -1]]
+        moved[:, :count] = _smoothed(names, places, moved[:, count:], self.slopes, self.smooth)
         if self.turn:
-            turns = np.floor((at - places[0]) / self.turn)
-            order = np.argsort(at - turns * self.turn, kind="stable")
-            at, heights_at, noise = (
-                row[order] for row in (at - turns * self.turn, heights_at - turns * self.advance, noise)
+            moved[:, count - 1] = moved[:, 0] + self.turn
+        return moved
+
+
+class _Fit:
+    """Chains that come nearer the rows, each in steps of its own.
+
+    `normal` and `side` are the normal equations of the chains, by what is free in them.
+    """
+
+    def __init__(
+        self, outline: Outline, names: Sequence[tuple[str, ...]], laws: _Laws, spread: Array, ends: Array
+    ) -> None:
+        self.outline, self.names, self.laws, self.spread = outline, names, laws, spread
+        self.ends = outline.inside(names[0], ends)
+        self.squares, self.normal, self.side = self._equations(np.arange(len(names)), self.ends)
+        self.damping = np.full(len(names), _DAMPING)
+
+    def _equations(self, chains: NDArray[np.intp], ends: Array) -> tuple[Array, Array, Array]:
+        off, slopes = self.outline.missed([self.names[i] for i in chains], self.laws, ends)
+        matrix = slopes @ self.spread
+        turned = matrix.transpose(0, 2, 1)
+        return (off**2).sum(axis=1), turned @ matrix, (turned @ off[:, :, None])[:, :, 0]
+
+    def improve(self, steps: int) -> None:
+        """So many steps at most, of each chain until it is as near as it comes."""
+        count = len(self.outline.places)
+        active = np.arange(len(self.names))
+        for _ in range(steps):
+            step = self._step(active)
+            tried = self.outline.inside(self.names[0], self.ends[active] + step @ self.spread.T)
+            apart = np.diff(tried[:, :count], axis=1)
+            sound = np.flatnonzero(np.all(apart > _APART * np.ptp(self.outline.places), axis=1))
+            before = self.squares[active]
+            new = np.full(len(active), np.inf)
+            new[sound], normal, side = self._equations(active[sound], tried[sound])
+            nearer = new < before
+            at, of_sound = active[nearer], nearer[sound]
+            gained = -(self.side[active] * step).sum(axis=1)
+            last = np.where(
+                nearer, before - new <= _LAST_STEP * before,
+                (self.damping[active] > _MOST_DAMPING) | (gained <= _LAST_STEP * before),
+            )  # fmt: skip
+            self.ends[at], self.squares[at] = tried[nearer], new[nearer]
+            self.normal[at], self.side[at] = normal[of_sound], side[of_sound]
+            self.damping[active] *= np.where(nearer, 0.1, 10.0)
+            active = active[~last]
+            if not active.size:
+                break
+
+    def _step(self, chains: NDArray[np.intp]) -> Array:
+        """The damped step of each of some chains, of equations scaled by their diagonal."""
+        normal, side = self.normal[chains], self.side[chains]
+        size = np.sqrt(normal.diagonal(axis1=1, axis2=2))
+        scale = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0.0)
+        scaled = normal * scale[:, :, None] * scale[:, None, :]
+        damping = np.maximum(self.damping[chains], _LEAST_DAMPING)
+        scaled += damping[:, None, None] * np.eye(size.shape[1])
+        return np.asarray(-scale * np.linalg.solve(scaled, (scale * side)[:, :, None])[:, :, 0])
+
+    def chains(self) -> list[Chain]:
+        """The chains with the deviations of their ends."""
+        outline, free, count = self.outline, self.spread.shape[1], len(self.outline.places)
+        variances = np.maximum(self.squares / max(len(outline.x) - free, 1), 1.0)
+        covariances = self.spread @ np.linalg.pinv(self.normal, hermitian=True) @ self.spread.T
+        deviations = np.sqrt(variances[:, None] * np.maximum(covariances.diagonal(axis1=1, axis2=2), 0.0))
+        return [
+            Chain(
+                names, ends[:count], ends[count:], float(squares), free, deviation, outline.turn, outline.advance,
+                outline.slopes, outline.smooth,
             )
-        edges = np.searchsorted(at, places, side="right")
-        y, slopes = np.empty(len(at)), np.zeros((len(at), 2 * count))
-        for rows, i in ((slice(None, edges[0]), 0), (slice(edges[-1], None), count - 1)):
-            slope = self.slopes[i > 0]
-            y[rows] = heights[i] + slope * (at[rows] - places[i])
-            slopes[rows, i], slopes[rows, count + i] = -slope, 1.0
-        for i, name in enumerate(names):
-            rows = slice(edges[i], edges[i + 1])
-            if not name:
-                y[rows], slopes[rows, count + i] = heights[i], 1.0
-                continue
-            length, stroke = places[i + 1] - places[i], heights[i + 1] - heights[i]
-            u = np.minimum((at[rows] - places[i]) / length, 1.0)
-            a, b = laws(name, u)
-            y[rows] = heights[i] + stroke * a
-            slopes[rows, i], slopes[rows, i + 1] = -stroke / length * b * (1.0 - u), -stroke / length * b * u
-            slopes[rows, count + i], slopes[rows, count + i + 1] = 1.0 - a, a
-        return (y - heights_at) / noise, slopes / noise[:, None]
+            for names, ends, squares, deviation in zip(self.names, self.ends, self.squares, deviations, strict=True)
+        ]  # fmt: skip
+
+
+def _squares(chain: Chain) -> float:
+    return chain.squares
 
 
 def _woven(names: Sequence[str], rests: Sequence[str]) -> Iterator[str]:
