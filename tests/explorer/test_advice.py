@@ -82,15 +82,6 @@ def test_a_machine_is_advised_by_its_torque(served: Server) -> None:
     assert "rms " not in json.dumps(answer)
 
 
-@pytest.mark.long
-def test_starts_of_a_flat_optimum_agree_as_soon_as_they_are_known_to() -> None:
-    cycle = cycle_view.cycle(CycleRequest(study=machine_view.example(), axis=1))
-    for solution in advise(cycle.specification, points=0)["least torque"].solutions:
-        least, *others = solution.starts
-        assert len(others) <= 1  # none where the limit of the drive leaves little slack
-        assert others[0] <= least * (1.0 + 1e-3)
-
-
 def test_what_cannot_be_advised_says_why(served: Server) -> None:
     study = example()
     for entries, reason in (
