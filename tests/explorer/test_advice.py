@@ -12,7 +12,7 @@ import pytest
 from optlaws import Advice, Cycle, Plan, advise
 from tests.explorer.talk import OPTIMAL, Server, written
 from tests.explorer.test_page import go, settle
-from tests.internals.explorer import CycleRequest, cycle_view, example, machine_view, start
+from tests.internals.explorer import example, machine_view, start
 from tests.internals.jobs import read_of_cycle_entries
 
 if TYPE_CHECKING:
