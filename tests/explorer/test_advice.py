@@ -12,7 +12,7 @@ import pytest
 from optlaws import Advice, Cycle, Plan, advise
 from tests.explorer.talk import OPTIMAL, Server, written
 from tests.explorer.test_page import go, settle
-from tests.internals.explorer import example, machine_view, start
+from tests.internals.explorer import CycleRequest, cycle_view, example, machine_view, start
 from tests.internals.jobs import read_of_cycle_entries
 
 if TYPE_CHECKING:
@@ -80,6 +80,15 @@ def test_a_machine_is_advised_by_its_torque(served: Server) -> None:
     for row in answer["rows"]:
         del row["take"]  # entries of a file
     assert "rms " not in json.dumps(answer)
+
+
+@pytest.mark.long
+def test_starts_of_a_flat_optimum_agree_as_soon_as_they_are_known_to() -> None:
+    cycle = cycle_view.cycle(CycleRequest(study=machine_view.example(), axis=1))
+    for solution in advise(cycle.specification, points=0)["least torque"].solutions:
+        least, *others = solution.starts
+        assert len(others) <= 1  # none where the limit of the drive leaves little slack
+        assert others[0] <= least * (1.0 + 1e-3)
 
 
 def test_what_cannot_be_advised_says_why(served: Server) -> None:

@@ -213,24 +213,22 @@ def _exact(names: Sequence[str], u: Array) -> tuple[Array, Array]:
 
 
 @cache
-def _sampled() -> tuple[Array, Array]:
-    """Positions and velocities at even places, a row for each law of the catalogue, and one of rests."""
-    even = np.linspace(0.0, 1.0, _INTERVALS + 1)
-    return (
-        np.array([*(law.law(even) for law in catalogue.values()), np.zeros_like(even)]),
-        np.array([*(law.law(even, 1) for law in catalogue.values()), np.zeros_like(even)]),
-    )
+def _sampled() -> tuple[dict[str, int], list[Array]]:
+    """Which row is that of each law, and of rests, in positions and in velocities at even places."""
+    even, laws = np.linspace(0.0, 1.0, _INTERVALS + 1), [law.law for law in catalogue.values()]
+    rows = {name: i for i, name in enumerate([*catalogue, ""])}
+    return rows, [np.array([*(law(even, nu) for law in laws), np.zeros_like(even)]) for nu in (0, 1)]
 
 
 def _interpolated(names: Sequence[str], u: Array) -> tuple[Array, Array]:
     """Positions and velocities by cubics between even places, which cost little."""
-    rows = {name: i for i, name in enumerate([*catalogue, ""])}
+    rows, sampled = _sampled()
     first = np.array([rows[name] for name in names], dtype=np.intp)[:, None] * (_INTERVALS + 1)
     inside = (u > 0.0) & (u <= 1.0)
     u = np.clip(u, 0.0, 1.0)
     at = np.minimum((u * _INTERVALS).astype(np.intp), _INTERVALS - 1)
     t = u * _INTERVALS - at
-    a, b = (each.take(first + at + np.arange(2)[:, None, None]) for each in _sampled())
+    a, b = (each.take(first + at + np.arange(2)[:, None, None]) for each in sampled)
     rise, before, after = a[1] - a[0], b[0] / _INTERVALS, b[1] / _INTERVALS
     second, third = 3.0 * rise - 2.0 * before - after, before + after - 2.0 * rise
     slope = before + t * (2.0 * second + 3.0 * t * third)
@@ -290,9 +288,9 @@ class Outline:
         """The outline with some of its rows."""
         return replace(self, x=self.x[rows], y=self.y[rows], noise=self.noise[rows])
 
-    def exactly(self, rough: Chain) -> Chain:
+    def exactly(self, rough: Chain, smooth: tuple[bool, bool] = (False, False)) -> Chain:
         """The chain of the same laws that is nearest the rows, of the laws themselves."""
-        outline = replace(self, places=rough.places, heights=rough.heights)
+        outline = replace(self, places=rough.places, heights=rough.heights, smooth=smooth)
         return outline.fitted([rough.names], _exact, _CLOSE_STEPS)[0]
 
     def smoothly(self, chain: Chain) -> Chain | None:
@@ -300,8 +298,7 @@ class Outline:
         smooth = [0.0 < change < _NEARLY for change in chain.changes]
         if not any(smooth) or len(chain.places) != len(self.places) or (all(smooth) and len(self.places) == 2):
             return None
-        outline = replace(self, places=chain.places, heights=chain.heights, smooth=(smooth[0], smooth[1]))
-        return outline.fitted([chain.names], _exact, _CLOSE_STEPS)[0]
+        return self.exactly(chain, (smooth[0], smooth[1]))
 
     def _resting(self, length: float) -> Outline:
         """The outline with rests of a length where the moves meet."""
@@ -365,45 +362,6 @@ class Outline:
         fit.improve(steps)
         return fit.chains()
 
-    def missed(self, names: Sequence[Sequence[str]], laws: _Laws, ends: Array) -> tuple[Array, Array]:
-        """How far chains miss the rows, in deviations of their noise, and the derivatives by places and heights.
-
-        Arrays of shape (chains, rows), and (chains, rows, places and heights).
-        """
-        count = len(self.places)
-        places, heights = ends[:, :count, None], ends[:, count:, None]
-        turns = np.floor((self.x - places[:, 0]) / self.turn) if self.turn else 0.0
-        x = self.x - turns * self.turn
-        length, stroke = np.diff(places, axis=1), np.diff(heights, axis=1)
-        u = (x[..., None, :] - places[:, :-1]) / length
-        moves = [name for chain in names for name in chain]
-        a, b = (each.reshape(u.shape) for each in laws(moves, u.reshape(len(moves), len(self.x))))
-        before, behind = x <= places[:, 0], x > places[:, -1]
-        lines = self.slopes[0] * before * (x - places[:, 0]) + self.slopes[1] * behind * (x - places[:, -1])
-        y = heights[:, 0] + (stroke * a).sum(axis=1) + lines
-        slopes = np.zeros((len(ends), 2 * count, len(self.x)))
-        pace = stroke / length * b
-        slopes[:, : count - 1] -= pace * (1.0 - u)
-        slopes[:, 1:count] -= pace * u
-        slopes[:, 0] -= self.slopes[0] * before
-        slopes[:, count - 1] -= self.slopes[1] * behind
-        slopes[:, count] = 1.0
-        slopes[:, count:-1] -= a
-        slopes[:, count + 1 :] += a
-        off = y - (self.y - turns * self.advance)
-        return off / self.noise, (slopes / self.noise).transpose(0, 2, 1)
-
-    def inside(self, names: tuple[str, ...], ends: Array) -> Array:
-        """Places and heights with places in the bounds, and on the lines and round the turn as chains are."""
-        count = len(self.places)
-        moved = ends.copy()
-        places = np.clip(ends[:, :count], *self.bounds)
-        moved[:, [count, -1]] += self.slopes * (places - ends[:, :count])[:, [0, -1]]
-        moved[:, :count] = _smoothed(names, places, moved[:, count:], self.slopes, self.smooth)
-        if self.turn:
-            moved[:, count - 1] = moved[:, 0] + self.turn
-        return moved
-
 
 class _Fit:
     """Chains that come nearer the rows, each in steps of its own.
@@ -415,12 +373,51 @@ class _Fit:
         self, outline: Outline, names: Sequence[tuple[str, ...]], laws: _Laws, spread: Array, ends: Array
     ) -> None:
         self.outline, self.names, self.laws, self.spread = outline, names, laws, spread
-        self.ends = outline.inside(names[0], ends)
+        self.ends = self._inside(ends)
         self.squares, self.normal, self.side = self._equations(np.arange(len(names)), self.ends)
         self.damping = np.full(len(names), _DAMPING)
 
+    def _missed(self, chains: NDArray[np.intp], ends: Array) -> tuple[Array, Array]:
+        """How far chains miss the rows, in deviations of their noise, and the derivatives by places and heights.
+
+        Arrays of shape (chains, rows), and (chains, rows, places and heights).
+        """
+        outline, count = self.outline, len(self.outline.places)
+        places, heights = ends[:, :count, None], ends[:, count:, None]
+        turns = np.floor((outline.x - places[:, 0]) / outline.turn) if outline.turn else 0.0
+        x = outline.x - turns * outline.turn
+        length, stroke = np.diff(places, axis=1), np.diff(heights, axis=1)
+        u = (x[..., None, :] - places[:, :-1]) / length
+        moves = [name for i in chains for name in self.names[i]]
+        a, b = (each.reshape(u.shape) for each in self.laws(moves, u.reshape(len(moves), len(outline.x))))
+        before, behind = x <= places[:, 0], x > places[:, -1]
+        (first, last), pace = outline.slopes, stroke / length * b
+        lines = first * before * (x - places[:, 0]) + last * behind * (x - places[:, -1])
+        off = heights[:, 0] + (stroke * a).sum(axis=1) + lines - (outline.y - turns * outline.advance)
+        slopes = np.zeros((len(ends), 2 * count, len(outline.x)))
+        slopes[:, : count - 1] -= pace * (1.0 - u)
+        slopes[:, 1:count] -= pace * u
+        slopes[:, 0] -= first * before
+        slopes[:, count - 1] -= last * behind
+        slopes[:, count] = 1.0
+        slopes[:, count:-1] -= a
+        slopes[:, count + 1 :] += a
+        return off / outline.noise, (slopes / outline.noise).transpose(0, 2, 1)
+
+    def _inside(self, ends: Array) -> Array:
+        """Ends with places in the bounds, on the lines beside the chains and round the turn."""
+        outline, count = self.outline, len(self.outline.places)
+        moved = ends.copy()
+        places = np.clip(ends[:, :count], *outline.bounds)
+        moved[:, [count, -1]] += outline.slopes * (places - ends[:, :count])[:, [0, -1]]
+        moved[:, :count] = _smoothed(self.names[0], places, moved[:, count:], outline.slopes, outline.smooth)
+        if outline.turn:
+            moved[:, count - 1] = moved[:, 0] + outline.turn
+        return moved
+
     def _equations(self, chains: NDArray[np.intp], ends: Array) -> tuple[Array, Array, Array]:
-        off, slopes = self.outline.missed([self.names[i] for i in chains], self.laws, ends)
+        """The sums of squares of chains, with their normal equations."""
+        off, slopes = self._missed(chains, ends)
         matrix = slopes @ self.spread
         turned = matrix.transpose(0, 2, 1)
         return (off**2).sum(axis=1), turned @ matrix, (turned @ off[:, :, None])[:, :, 0]
@@ -431,7 +428,7 @@ class _Fit:
         active = np.arange(len(self.names))
         for _ in range(steps):
             step = self._step(active)
-            tried = self.outline.inside(self.names[0], self.ends[active] + step @ self.spread.T)
+            tried = self._inside(self.ends[active] + step @ self.spread.T)
             apart = np.diff(tried[:, :count], axis=1)
             sound = np.flatnonzero(np.all(apart > _APART * np.ptp(self.outline.places), axis=1))
             before = self.squares[active]
