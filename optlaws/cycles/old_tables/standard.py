@@ -320,9 +320,11 @@ class Outline:
         heights = self.heights[move : move + 2]
         last = move == len(self.places) - 2
         slopes = self.slopes[0] if move == 0 else 0.0, self.slopes[1] if last else 0.0
-        single = replace(some, places=ends, heights=heights, known=np.ones(2, dtype=bool), turn=0.0, slopes=slopes)
         wide = 0.4 * float(np.ptp(ends))
-        single = replace(single, bounds=(ends[0] - wide, ends[1] + wide))
+        single = replace(
+            some, places=ends, heights=heights, known=np.ones(2, dtype=bool), bounds=(ends[0] - wide, ends[1] + wide),
+            turn=0.0, advance=0.0, slopes=slopes,
+        )  # fmt: skip
         # beside a line another one is no move, but would be two corners in place of a smooth change
         names = [(name,) for name in catalogue if name != "constant velocity" or not any(slopes)]
         chains = single.fitted(names, _interpolated, _ROUGH_STEPS)
