@@ -7,6 +7,8 @@ from http.client import HTTPConnection, HTTPResponse
 from typing import Any
 from urllib.parse import urlencode
 
+#: seconds of the processor that a question has: what an answer is does not depend on how busy the machine is
+PATIENCE = 60.0
 OPTIMAL = {"problem": {"order": 4, "degree": 9, "B": 1.7}}
 
 
@@ -29,7 +31,7 @@ class Server:
 
     def send(self, method: str, path: str, body: bytes | None = None, **headers: str) -> tuple[HTTPResponse, bytes]:
         """An answer with its body; headers by their names with _ for -."""
-        connection = HTTPConnection(self.name, self.port, timeout=30)
+        connection = HTTPConnection(self.name, self.port, timeout=300)
         try:
             named = {name.replace("_", "-"): value for name, value in headers.items()}
             connection.request(method, path, body=body, headers=named)
@@ -38,10 +40,10 @@ class Server:
         finally:
             connection.close()
 
-    def ask(self, name: str, question: object, code: int = 200) -> Any:
+    def ask(self, name: str, question: object, code: int = 200, *, patience: float = PATIENCE) -> Any:
         """The answer to a question of the page."""
         body = question if isinstance(question, bytes) else json.dumps(question).encode()
-        response, answer = self.send("POST", f"/api/{name}", body, Content_Type="application/json")
+        response, answer = self.send("POST", f"/api/{name}?patience={patience}", body, Content_Type="application/json")
         assert response.status == code, answer
         return json.loads(answer)
 

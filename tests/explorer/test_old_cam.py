@@ -60,14 +60,14 @@ def test_a_table_is_what_the_library_reads(served: Server, turn: Path) -> None:
 @pytest.mark.long
 def test_a_noisy_table_says_its_noise_and_its_seam(served: Server) -> None:
     study = {"text": REAL.read_text("utf-8")}
-    shown, table = served.ask("old?patience=9", {"study": study}), read_cycle_table(REAL)
+    shown, table = served.ask("old", {"study": study}), read_cycle_table(REAL)
     facts = " ".join(map(written, shown["trust"]["facts"]))
     assert (shown["trust"]["word"], table.off[0] < table.room, "off the point" in facts) == ("read", True, False)
     assert f"scatter by {table.scatter:.2g} mm" in facts
     assert f"{table.seam:.3g} mm from the first" in facts
     near = table.off[0] / 4.0
     shown, table = (
-        served.ask("old?patience=9", {"study": study | {"room": near}}),
+        served.ask("old", {"study": study | {"room": near}}),
         read_cycle_table(REAL, tolerance=near),
     )
     facts = " ".join(map(written, shown["trust"]["facts"]))
@@ -80,8 +80,8 @@ def test_better_laws_are_the_library_s_and_so_are_their_files(served: Server, tu
     table = read_cycle_table(turn)
     better = table.bettered(0.1)
     # as it is dragged: what a process knows of the law before leaves no trace in the next one
-    served.ask("old-move?patience=20", {"study": STUDY | {"within": 0.12}, "axis": 0})
-    moves = [served.ask("old-move?patience=20", {"study": study, "axis": number}) for number in (0,)]
+    served.ask("old-move", {"study": STUDY | {"within": 0.12}, "axis": 0})
+    moves = [served.ask("old-move", {"study": study, "axis": number}) for number in (0,)]
     for shown, part in zip(moves, better.moves, strict=True):
         assert not isinstance(part.law, str)
         assert part.solution is not None
@@ -96,7 +96,7 @@ def test_better_laws_are_the_library_s_and_so_are_their_files(served: Server, tu
     off = next(curve for curve in answer["panels"][1]["series"] if curve["name"] == "new law")
     assert max(map(abs, off["values"])) == pytest.approx(gain.deviation, abs=1e-4)
     assert gain.deviation <= 0.1 * (1.0 + 1e-6)
-    small = served.ask("old-move?patience=20", {"study": STUDY | {"within": 1e-4}, "axis": 0})
+    small = served.ask("old-move", {"study": STUDY | {"within": 1e-4}, "axis": 0})
     assert small["law"] is None
     reason = "keeps its law: none of order 3 and degree 15 so near has less; within 0.0004 mm one has 0.2% less"
     assert written(small["kept"]) == f"{reason} acceleration"
@@ -155,7 +155,7 @@ def test_a_dropped_table_is_shown_and_bettered_within_a_dragged_band(page: Page,
     band.fill("0.2")
     settle(page)
     study = {"file": "turn.csv", "text": STUDY["text"], "within": 0.2}
-    wide = served.ask("old-move?patience=20", {"study": study, "axis": 0})
+    wide = served.ask("old-move", {"study": study, "axis": 0})
     gains = served.ask("old", {"study": study, "laws": [[wide["law"]]]})["tables"][1]["rows"]
     assert f"{gains[1][-2]:.6g}".replace("-", "−") in page.locator("#old-gains").inner_text()
     page.get_by_role("button", name="check this proof").click()

@@ -39,7 +39,7 @@ def wait_for_work(parent: int, seconds: float = 0.3) -> None:
 
 
 def test_a_question_that_takes_long_ends_with_a_sentence(served: Server) -> None:
-    assert served.ask("laws?patience=0.5", HEAVY) == {"error": "this takes more than 0.5 s", "late": 0.5}
+    assert served.ask("laws", HEAVY, patience=0.5) == {"error": "this takes more than 0.5 s", "late": 0.5}
 
 
 def test_light_questions_do_not_wait_for_heavy_ones(served: Server) -> None:
