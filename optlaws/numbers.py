@@ -101,6 +101,11 @@ def chop(value: float, size: float, share: float) -> float:
     return 0.0 if abs(value) <= share * abs(size) else value
 
 
+def chopped(values: Array, size: float, share: float) -> Array:
+    """The values of an array, 0 where they are no more than rounding: a share of a size."""
+    return np.where(np.abs(values) <= share * abs(size), 0.0, values)
+
+
 def power_of_two(size: float) -> float:
     """The greatest power of 2 that is not above a size; 1 where the size is 0 or not finite.
 

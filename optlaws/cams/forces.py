@@ -30,13 +30,16 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.mechanism_formulas import LinearForce, TableKind, formula_of, rescaled, table_numbers
 from optlaws.motion.quantities import TURN, in_degrees, quantity
 from optlaws.motion.smooth_stretches import jet_of_parts
-from optlaws.numbers import Array, NumberOrQuantity, number_or_array, real_times
+from optlaws.numbers import Array, NumberOrQuantity, chopped, number_or_array, real_times
 from optlaws.numerics.branch_and_bound import Extremes, Function, extremes, integral
 from optlaws.numerics.interval import Interval, exact, highest, middle
 from optlaws.numerics.roots import bisect
 from optlaws.numerics.taylor import Jet, variable
 from optlaws.sentences import sentence
-from optlaws.tolerances import CLOSURE, FORCE_EXTREMES
+from optlaws.tolerances import CLOSURE, FORCE_EXTREMES, FORCE_ROUNDING
+
+#: megapascals of a pascal
+MPA = 1e-6
 
 
 @declared
@@ -141,6 +144,20 @@ class LineContact:
 _PARTS = 12
 
 
+class ForceCurve(NamedTuple):
+    """A force, torque or pressure of a cam in SI units over the cam's angle, and the unit of tables."""
+
+    name: str
+    function: Callable[[Array], Any]
+    extremes: Extremes
+    unit: str
+    factor: float = 1.0
+
+    def values(self, angles: Array) -> Array:
+        """The values of tables at angles in radians, 0 where they are rounding."""
+        return self.factor * chopped(np.asarray(self.function(angles)), self.extremes.peak, FORCE_ROUNDING)
+
+
 @documented_by(Surfaces)
 @dataclass(frozen=True)
 class CamForces:
@@ -233,8 +250,7 @@ class CamForces:
 
     def contact_pressure(self, angle: Any) -> Any:
         """Hertz's greatest pressure in the contact, Pa."""
-        squared = self._given(self._squared_pressure, angle)
-        return number_or_array(np.sqrt(np.maximum(squared, 0.0)))
+        return self._root(self._squared_pressure, angle)
 
     @kept_property
     def contact(self) -> Extremes:
@@ -255,6 +271,17 @@ class CamForces:
     def pressure(self) -> Extremes:
         """Least and greatest of Hertz's pressure, enclosed over the turn; 0 where the follower lifts off."""
         return roots(self._enclosed(self._squared_pressure))
+
+    @property
+    def curves(self) -> list[ForceCurve]:
+        """Contact force, torque at the shaft and, where the contact has a width, Hertz's pressure."""
+        curves = [
+            ForceCurve("contact force", self.contact_force, self.contact, "N"),
+            ForceCurve("torque at the shaft", self.shaft_torque, self.torque, "N m"),
+        ]
+        if self.width is not None:
+            curves.append(ForceCurve("Hertz's pressure", self.contact_pressure, self.pressure, "MPa", MPA))
+        return curves
 
     @kept_property
     def mean_torque(self) -> tuple[float, float]:
@@ -316,6 +343,9 @@ class CamForces:
 
     def _given(self, function: Callable[[Any, int], Jet], angle: Any) -> Any:
         return number_or_array(np.asarray(function(real_times(angle), 0).terms[0]))
+
+    def _root(self, squared: Callable[[Any, int], Jet], angle: Any) -> Any:
+        return number_or_array(np.sqrt(np.maximum(self._given(squared, angle), 0.0)))
 
     def _enclosed(self, function: Function) -> Extremes:
         return extremes(function, self.edges, share=FORCE_EXTREMES, parts=_PARTS)

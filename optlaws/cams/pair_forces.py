@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.forces import CamForces, ProcessByAngle, plain_extremes, roots
+from optlaws.cams.forces import MPA, CamForces, ForceCurve, ProcessByAngle, plain_extremes, roots
 from optlaws.kept import kept_property
 from optlaws.mechanisms.linkages.mechanism_formulas import LinearForce
 from optlaws.numbers import Array
@@ -120,7 +120,7 @@ class PairForces(CamForces):
     @kept_property
     def contact_of_return(self) -> Extremes:
         """Least and greatest contact force of the return cam, 0 where the first one presses, enclosed over the turn."""
-        return self._enclosed(self._only_of_return(self.on_return._contact_force))  # noqa: SLF001
+        return self._enclosed(self._return_contact)
 
     @kept_property
     def pressure(self) -> Extremes:
@@ -130,8 +130,17 @@ class PairForces(CamForces):
     @kept_property
     def pressure_of_return(self) -> Extremes:
         """Least and greatest of Hertz's pressure of the return cam, enclosed over the turn."""
-        square = self._enclosed(self._only_of_return(self.on_return._squared_pressure))  # noqa: SLF001
-        return roots(square, FORCE_ROUNDING)
+        return roots(self._enclosed(self._return_squared_pressure), FORCE_ROUNDING)
+
+    @property
+    def curves(self) -> list[ForceCurve]:
+        """Those of a cam, and the contact force and pressure of the return cam, 0 where the first one presses."""
+        name, contact = "contact force of the return cam", partial(self._given, self._return_contact)
+        curves = [*super().curves, ForceCurve(name, contact, self.contact_of_return, "N")]
+        if self.width is not None:
+            name, pressure = "Hertz's pressure of the return cam", partial(self._root, self._return_squared_pressure)
+            curves.append(ForceCurve(name, pressure, self.pressure_of_return, "MPa", MPA))
+        return curves
 
     @property
     def pressed_by_return(self) -> list[tuple[float, float]]:
@@ -164,8 +173,14 @@ class PairForces(CamForces):
         first = self.alone._squared_pressure  # noqa: SLF001
         return self._of_pressing(first, lambda at, most: first(at, most) * 0.0, angle, order)
 
-    def _only_of_return(self, function: Any) -> Any:
-        return lambda angle, order: self._of_pressing(lambda at, most: function(at, most) * 0.0, function, angle, order)
+    def _return_contact(self, angle: Array | Interval, order: int) -> Jet:
+        return self._only_of_return(self.on_return._contact_force, angle, order)  # noqa: SLF001
+
+    def _return_squared_pressure(self, angle: Array | Interval, order: int) -> Jet:
+        return self._only_of_return(self.on_return._squared_pressure, angle, order)  # noqa: SLF001
+
+    def _only_of_return(self, function: Any, angle: Array | Interval, order: int) -> Jet:
+        return self._of_pressing(lambda at, most: function(at, most) * 0.0, function, angle, order)
 
     def _of_pressing(self, first: Any, second: Any, angle: Array | Interval, order: int) -> Jet:
         """One function where the first cam presses, the other one where the return cam does."""

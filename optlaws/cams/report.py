@@ -23,6 +23,7 @@ from optlaws.cams.cam_values import (
     objective_value,
 )
 from optlaws.cams.cam_values import Values as ValuesByName
+from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.curves.plane_curve import CurveByAngle
 from optlaws.cams.followers.follower import positive
 from optlaws.cams.forces import CamForces, Surfaces
@@ -33,20 +34,19 @@ from optlaws.cycles.placed import broken_limits
 from optlaws.cycles.usual_law import usual_cycle
 from optlaws.kept import kept_property
 from optlaws.laws.catalogue.catalogue import USUAL
-from optlaws.motion.quantities import DEGREES, MILLI, TURN, TURN_DEG, UNITS, in_degrees
-from optlaws.numbers import Array, NumberOrQuantity, bounded, chop
+from optlaws.motion.quantities import DEGREES, MILLI, QUANTITIES, TURN, TURN_DEG, UNITS, in_degrees
+from optlaws.numbers import Array, NumberOrQuantity, bounded, chop, chopped
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, Sentence, capital, joined, sentence
 from optlaws.shown.curve_points import refined
 from optlaws.shown.difference import Differences
 from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Section, Series
 from optlaws.shown.summary import Row, Summary
-from optlaws.tolerances import CAM_FEASIBILITY, FORCE_ROUNDING, RADIUS_ROUNDING
+from optlaws.tolerances import CAM_FEASIBILITY, CYCLE_ROUNDING, FORCE_ROUNDING, RADIUS_ROUNDING
 
 if TYPE_CHECKING:
     from optlaws.cams.curves.extremes import EnclosedExtreme
     from optlaws.cams.disc import DiscCam
-    from optlaws.numerics.branch_and_bound import Extremes
 
 #: of numbers on pages; files have all
 DIGITS = 5
@@ -87,7 +87,7 @@ class CamReport:
             *self.extremes,
         ]
         if isinstance(cam.motion, Cycle | Plan) and cam.motion.drive is not None:
-            for name, extremes, unit, factor in named_forces(CamForces(cam)):
+            for name, _, extremes, unit, factor in CamForces(cam).curves:
                 rows.append(Row(f"{name}, least", factor * extremes.least, unit, degrees(extremes.least_at)))
                 rows.append(Row(f"{name}, greatest", factor * extremes.most, unit, degrees(extremes.most_at)))
         beside = {} if self.beside is None else {row.name: row for row in self.beside.rows}
@@ -194,23 +194,31 @@ class CamReport:
         }
 
     def coordinates(
-        self, count: int, cutter: NumberOrQuantity | None = None, second: DiscCam | None = None
+        self,
+        count: int,
+        rate: float,
+        forces: CamForces | None = None,
+        cutter: NumberOrQuantity | None = None,
+        second: DiscCam | None = None,
     ) -> ReportTable:
-        """Displacement, points of the curves, pressure angle and curvature at equal steps of the turn.
+        """Motion at a speed in rad/s, points of the curves, pressure angle and curvature at equal steps of the turn.
 
-        With the path of a cutter of a radius, and with the curves of a second cam.
+        With forces, with the path of a cutter of a radius, and with the curves of a second cam.
         """
         cam, curves, turns = self.cam, dict[str, CurveByAngle](), np.linspace(0.0, TURN_DEG, count)
         for name, disc in {"": cam, "return ": second}.items():
             if disc is not None:
                 curves |= {f"{name}pitch": disc.pitch_curve, f"{name}profile": disc.profile}
                 curves |= {} if cutter is None else {f"{name}cutter": disc.cutter_path(cutter)}
-        (unit, factor), angles = UNITS[cam.displacement.axis][0], np.radians(turns)
+        angles = np.radians(turns)
         after = {
             "pressure angle, deg": np.degrees(cam.pressure_angle(angles)),
             "curvature, 1/mm": cam.profile.curvature(angles) / MILLI,
         }
-        return _coordinates(turns, {f"displacement, {unit}": factor * cam.displacement(angles)}, curves, after)
+        after |= {
+            f"{each.name}, {each.unit}": each.values(angles) for each in ([] if forces is None else forces.curves)
+        }
+        return _coordinates(turns, _motion(cam.displacement, angles, rate), curves, after)
 
     @property
     def segments(self) -> tuple[ReportSegment, ...]:
@@ -247,12 +255,12 @@ class CamReport:
     def loads(self, forces: CamForces) -> tuple[Panel, ...]:
         """Contact force, torque at the shaft and, where the contact has a width, Hertz's pressure."""
         panels = []
-        curves: tuple[Values, ...] = (forces.contact_force, forces.shaft_torque, forces.contact_pressure)
-        for (name, each, unit, factor), curve in zip(named_forces(forces), curves, strict=False):
+        for force in forces.curves:
             # the least and the greatest value, but what is rounding
-            ends = (each.least_at, each.least), (each.most_at, each.most)
-            peaks = tuple((at, factor * value) for at, value in ends if chop(value, each.peak, FORCE_ROUNDING))
-            panels.append(self._panel(name, unit, partial(_scaled, curve, factor), peaks, forces.edges))
+            ends, most = force.extremes, force.extremes.peak
+            places = (ends.least_at, ends.least), (ends.most_at, ends.most)
+            peaks = tuple((at, force.factor * value) for at, value in places if chop(value, most, FORCE_ROUNDING))
+            panels.append(self._panel(force.name, force.unit, force.values, peaks, forces.edges))
         return tuple(panels)
 
     def process(self, forces: CamForces) -> tuple[Panel, ...]:
@@ -356,8 +364,8 @@ def _steep(cam: BarrelCam, limits: CamLimits) -> str:
     return str(sentence(text, joined(" and ", known), usual, in_degrees(allowed), remedy))
 
 
-def barrel_coordinates(cam: BarrelCam, count: int, cutter: NumberOrQuantity | None = None) -> ReportTable:
-    """Points of the roller's axis and of the flanks, and pressure angles, at equal steps of the turn."""
+def barrel_coordinates(cam: BarrelCam, count: int, rate: float, cutter: NumberOrQuantity | None = None) -> ReportTable:
+    """Motion at a speed in rad/s, points of the roller's axis and the flanks, and pressure angles, at equal steps."""
     turns, places = np.linspace(0.0, TURN_DEG, count), dict(zip(("outside", "at the bottom"), cam.radii, strict=True))
     curves = {"axis of the roller": cam.pitch_curve}
     curves |= {f"{side} flank {place}": cam.flank(side, radius) for place, radius in places.items() for side in SIDES}
@@ -367,7 +375,17 @@ def barrel_coordinates(cam: BarrelCam, count: int, cutter: NumberOrQuantity | No
         f"pressure angle {place}, deg": np.degrees(cam.pressure_angle(np.radians(turns), radius=radius))
         for place, radius in places.items()
     }
-    return _coordinates(turns, {}, curves, pressure)
+    return _coordinates(turns, _motion(cam.displacement, np.radians(turns), rate), curves, pressure)
+
+
+def _motion(motion: CamMotion, angles: Array, rate: float) -> dict[str, Array]:
+    """Displacement, velocity, acceleration and jerk of a follower at a speed of the cam; what is rounding is 0."""
+    columns = {}
+    for nu, (name, (unit, factor)) in enumerate(zip(QUANTITIES, UNITS[motion.axis], strict=True)):
+        values = np.asarray(motion(angles, nu))
+        scaled = factor * rate**nu * chopped(values, float(np.abs(values).max()), CYCLE_ROUNDING)
+        columns[f"{name if nu else 'displacement'}, {unit}"] = scaled
+    return columns
 
 
 def _coordinates(
@@ -383,22 +401,11 @@ def _coordinates(
     return ReportTable.of_columns({name: map(plain, values.tolist()) for name, values in columns.items()})
 
 
-def named_forces(forces: CamForces) -> list[tuple[str, Extremes, str, float]]:
-    """Contact force, torque at the shaft and, where the contact has a width, pressure, with units and factors."""
-    named = [("contact force", forces.contact, "N", 1.0), ("torque at the shaft", forces.torque, "N m", 1.0)]
-    named += [] if forces.width is None else [("Hertz's pressure", forces.pressure, "MPa", 1e-6)]
-    if isinstance(forces, PairForces):
-        named.append(("contact force of the return cam", forces.contact_of_return, "N", 1.0))
-        if forces.width is not None:
-            named.append(("Hertz's pressure of the return cam", forces.pressure_of_return, "MPa", 1e-6))
-    return named
-
-
 def forces_section(forces: CamForces, pressed: str = "") -> Section:
     """The forces of a cam over its turn, with a sentence on what presses the follower on it."""
     mean = chop(0.5 * sum(forces.mean_torque), forces.torque.peak, FORCE_ROUNDING)
     table, facts, mean_square = [], [], forces.rms_torque[1]
-    for name, curve, unit, factor in named_forces(forces):
+    for name, _, curve, unit, factor in forces.curves:
         least, most = (chop(factor * value, factor * curve.peak, FORCE_ROUNDING) for value in (curve.least, curve.most))
         first, last = (chop(degrees(at), TURN_DEG, FORCE_ROUNDING) for at in (curve.least_at, curve.most_at))
         table.append([name, least, first, most, last, unit])
@@ -455,10 +462,6 @@ def leaves(forces: CamForces) -> str:
         return "the follower lifts off"
     pressed = isinstance(forces, PairForces) or chop(forces.contact.least, forces.contact.peak, FORCE_ROUNDING) > 0.0
     return "" if pressed else "the follower touches without force"
-
-
-def _scaled(curve: Values, size: float, at: Array) -> Array:
-    return size * np.asarray(curve(at))
 
 
 def extreme_row(name: str, extreme: EnclosedExtreme, unit: str, limit: float | None = None) -> Row:

@@ -27,7 +27,7 @@ from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel, picture_unit, times_in
 from optlaws.motion.piece import unit_of
 from optlaws.motion.quantities import MILLI, QUANTITIES, RPM, TURN_DEG, UNITS, Kind
-from optlaws.numbers import Array, bounded, chop
+from optlaws.numbers import Array, bounded, chop, chopped
 from optlaws.sentences import quantity_name
 from optlaws.shown.curve_points import refined
 from optlaws.shown.difference import Difference, Differences
@@ -382,12 +382,10 @@ def motion_table(
     times = np.minimum((degrees - master[0]) * (motion.duration / (master[1] - master[0])), motion.duration)
     columns = {"master, deg": degrees.tolist(), "time, s": times.tolist()}
     for nu, (name, (unit, factor)) in enumerate(zip(QUANTITIES, UNITS[motion.axis], strict=True)):
-        size = motion.peak(nu) * factor
-        columns[f"{name}, {unit}"] = [
-            chop(value * factor, size, CYCLE_ROUNDING) for value in np.asarray(motion(times, nu)).tolist()
-        ]
+        values = chopped(np.asarray(motion(times, nu)), motion.peak(nu), CYCLE_ROUNDING)
+        columns[f"{name}, {unit}"] = (factor * values).tolist()
     for name, driven in more(times).items():
-        columns[name] = [chop(value, float(np.abs(driven).max()), CYCLE_ROUNDING) for value in driven.tolist()]
+        columns[name] = chopped(driven, float(np.abs(driven).max()), CYCLE_ROUNDING).tolist()
     return ReportTable.of_columns(columns)
 
 

@@ -14,7 +14,7 @@ from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.errors import InfeasibleProblem, located
 from optlaws.jobs.cam_entries import BarrelProblemFile, CamProblemFile
 from optlaws.jobs.cam_result import BOUNDING, CamResult, laws_section, proven_entries
-from optlaws.motion.quantities import MILLI
+from optlaws.motion.quantities import MILLI, TURN
 from optlaws.plots.cam import animated, barrel_figure
 from optlaws.results import Results
 from optlaws.sentences import Amount, sentence
@@ -104,7 +104,7 @@ class BarrelResult(NamedTuple):
         cam = BarrelCam(plan, **spec.barrel.to_dict(), turning=spec.turning)
         sections, table = (
             (barrel_section(cam, spec.limits), laws_section(plan, allowed=_allowed(spec)), barrel_differences(cam)),
-            barrel_coordinates(cam, spec.rows, spec.cutter_radius),
+            barrel_coordinates(cam, spec.rows, TURN / plan.duration, spec.cutter_radius),
         )
         data = proven_entries(spec, plan) | {name: value for each in sections for name, value in each.data.items()}
         return cls(spec, plan, sections, data, table, partial(barrel_figure, cam))

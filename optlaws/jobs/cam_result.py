@@ -29,7 +29,7 @@ from optlaws.jobs.cam_entries import CamOfMotion, CamProblemFile
 from optlaws.jobs.sought_cam import RETURN, SIZE_MET, SoughtCam
 from optlaws.kept import kept_property
 from optlaws.laws.catalogue.catalogue import USUAL
-from optlaws.motion.quantities import MICRO, MILLI, TURN_DEG, Kind
+from optlaws.motion.quantities import MICRO, MILLI, TURN, TURN_DEG, Kind
 from optlaws.numbers import chop
 from optlaws.plots.cam import cam_figure, forces_figure, pair_figure
 from optlaws.sentences import Amount, Sentence, capital, quantity_name, sentence
@@ -349,7 +349,12 @@ class CamResult(SoughtCam):
     @property
     def table(self) -> ReportTable:
         """Its curves over the turn."""
-        return self.report.coordinates(self.spec.rows, self.spec.cutter_radius, self.second)
+        return self.table_of(self.spec.rows, self.forces)
+
+    def table_of(self, count: int, forces: CamForces | None) -> ReportTable:
+        """Its motion, curves and forces at so many equal steps of the turn."""
+        rate = TURN / self.motion.duration
+        return self.report.coordinates(count, rate, forces, self.spec.cutter_radius, self.second)
 
     def drawn(self, title: str) -> Figure:
         """The picture of the cam."""

@@ -14,7 +14,7 @@ from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import PRESSURE
 from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.forces import Surfaces
-from optlaws.cams.report import DIGITS, CamReport, forces_section, leaves, named_forces
+from optlaws.cams.report import DIGITS, CamReport, forces_section, leaves
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located
 from optlaws.explorer.views.cycle_view import SEGMENTS, CycleRequest
 from optlaws.explorer.views.law_view import refusing
@@ -26,7 +26,6 @@ from optlaws.jobs.cam_result import CamResult
 from optlaws.motion.quantities import MILLI, quantity
 from optlaws.sentences import Sentence, capital, joined, sentence
 from optlaws.shown.report import ReportTable
-from optlaws.tolerances import FORCE_ROUNDING
 
 _STEPS = 360
 _WHERE = Path("the cam")
@@ -132,19 +131,8 @@ def sizes(request: CycleRequest) -> dict[str, Any]:
 def values_of(request: CycleRequest) -> ReportTable:
     """The cam degree by degree, with its forces where the motion has a drive."""
     result = result_of(request)
-    table = result.report.coordinates(_STEPS + 1, result.spec.cutter_radius)
-    if result.spec.motion.drive is None:
-        return table
-    forces = result.forces or result.forces_of(Surfaces())
-    angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
-    curves = (forces.contact_force, forces.shaft_torque, forces.contact_pressure)
-    columns = dict(zip(table.headings, zip(*table.rows, strict=True), strict=True))
-    for (name, _, unit, factor), curve in zip(named_forces(forces), curves, strict=False):
-        values = factor * np.asarray(curve(angles))
-        columns[f"{name}, {unit}"] = tuple(
-            np.where(np.abs(values) > FORCE_ROUNDING * np.abs(values).max(), values, 0.0)
-        )
-    return ReportTable.of_columns(columns)
+    driven = result.spec.motion.drive is not None
+    return result.table_of(_STEPS + 1, (result.forces or result.forces_of(Surfaces())) if driven else None)
 
 
 def example() -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """Problem files of the job "cam" beside the single disc cam: best laws, least prime circles, pairs, barrels."""
 
+import csv
 import json
 import re
 from pathlib import Path
@@ -273,20 +274,35 @@ def test_a_pair_has_its_second_cam_in_table_picture_and_files(tmp_path: Path) ->
     first = DiscCam(cycle(), "60 mm", TranslatingRoller("12 mm"))
     second = conjugate_cam(first, distance="190 mm")
     table = np.genfromtxt(tmp_path / "out" / "cam.csv", delimiter=",", skip_header=2)
-    assert np.allclose(table[:, 6:8], 1e3 * second.pitch_curve(np.radians(table[:, 0])), atol=1e-5)
+    assert np.allclose(table[:, 9:11], 1e3 * second.pitch_curve(np.radians(table[:, 0])), atol=1e-5)
+    motion = cycle()
+    for nu, size in enumerate((1e3, 1e3, 1.0, 1.0)):
+        within = table[:-1, 0] * (motion.duration / 360.0)
+        assert np.allclose(table[:-1, 1 + nu], size * np.asarray(motion(within, nu)), rtol=1e-6, atol=1e-4)
     assert reply["return_cam"]["undercut"]["status"] == second.extremes.undercut.status
     assert {"pair.svg", "cam.nc", "return-cam.nc"} <= written
     assert "[return-cam.nc]" in page
 
 
 def test_the_return_cam_of_a_pair_presses_where_the_first_does_not(tmp_path: Path) -> None:
-    text = PAIR.replace("[pair]", '[forces]\nwidth = "20 mm"\n[pair]')
+    text = PAIR.replace("[pair]", '[forces]\nwidth = "20 mm"\n[pair]').replace("rows = 13", "rows = 721")
     page, reply, _ = done(tmp_path, text.replace("degree = 5", 'drive = { mass = "2 kg" }'))
     assert "lifts off" not in page
     assert "The return cam presses its follower from" in page
     assert "| Hertz's pressure of the return cam" in page
     assert reply["forces"]["return_contact"]["most"] > 0.0
     assert not reply["forces"]["lifts_off"]
+    with (tmp_path / "out" / "cam.csv").open(encoding="utf-8") as file:
+        headings, *rows = list(csv.reader(file))[1:]
+    table = dict(zip(headings, np.array(rows, float).T, strict=True))
+    of_return, pressure = "contact force of the return cam, N", "Hertz's pressure, MPa"
+    columns = {"contact": "contact force, N", "torque": "torque at the shaft, N m", "return_contact": of_return}
+    for name, column in (columns | {"pressure": pressure}).items():
+        low, high = (reply["forces"][name][end] * (1e-6 if column == pressure else 1.0) for end in ("least", "most"))
+        assert (table[column].min(), table[column].max()) == pytest.approx((low, high), abs=1e-3 * high)
+        assert max(low - table[column].min(), table[column].max() - high) <= 1e-7 * high
+    assert np.all((table[of_return] == 0.0) | (table[of_return] == table["contact force, N"]))
+    assert np.all((table[of_return] == 0.0) | (table[pressure] == 0.0))
     assert not [claim for each in verify_all(tmp_path / "out" / "cam.json").values() for claim in each.unchecked]
 
 
@@ -297,8 +313,9 @@ def test_a_barrel_has_its_flanks_tabled(tmp_path: Path) -> None:
     cam = BarrelCam(cycle(), "60 mm", "12 mm", "8 mm")
     table = np.genfromtxt(tmp_path / "out" / "cam.csv", delimiter=",", skip_header=2)
     angles = np.radians(table[:, 0])
-    assert np.allclose(table[:, 4:7], 1e3 * cam.flank("upper")(angles), atol=1e-5)
-    assert np.allclose(table[:, 16:19], 1e3 * cam.cutter_path("5 mm")(angles), atol=1e-5)
+    assert np.allclose(table[:, 2], 1e3 * np.asarray(cycle()(angles / angles[-1] * cycle().duration, 1)), atol=1e-4)
+    assert np.allclose(table[:, 8:11], 1e3 * cam.flank("upper")(angles), atol=1e-5)
+    assert np.allclose(table[:, 20:23], 1e3 * cam.cutter_path("5 mm")(angles), atol=1e-5)
     assert reply["undercut"] == {"status": cam.undercut}
     assert reply["pressure_angles"]["greatest"]["high"] == pytest.approx(cam.pressure_angles[1].high, rel=1e-9)
     assert written == {"cam.md", "cam.csv", "cam.json", "cam.svg"}
