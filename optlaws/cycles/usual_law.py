@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
 from dataclasses import replace
+from math import isclose
 from typing import TYPE_CHECKING
 
 from optlaws.cycles.placed import with_laws
-from optlaws.cycles.specification.programme import is_optimal
+from optlaws.cycles.specification.programme import LawSpan, is_optimal
 from optlaws.cycles.specification.segments import CycleSegment, Free, Move
 from optlaws.errors import InputError
+from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import USUAL
+from optlaws.laws.making.transform import with_end_velocity
 from optlaws.motion.piece import moves_at, named_law
+from optlaws.tolerances import CLOSURE
 
 if TYPE_CHECKING:
     from optlaws.cycles.cycle import Cycle
 
 
 def usual_cycle(cycle: Cycle) -> Cycle | None:
-    """The cycle with modified sine in all its moves from rest to rest, without limits.
+    """The cycle with modified sine in all its moves, added to the uniform motion between equal velocities; no limits.
 
-    None where the moves have that law already, or one of them cannot: it ends in motion, or passes given points.
+    None where the moves have that law already, or one of them cannot: its ends have two velocities, or it passes given
+    points.
 
     Examples
     --------
@@ -33,8 +39,9 @@ def usual_cycle(cycle: Cycle) -> Cycle | None:
         return None
     moves = [i for i, each in enumerate(cycle.segments) if may_have_another_law(each)]
     try:
-        usual_moves = {i: replace(with_law(USUAL, cycle.segments[i]), limits={}) for i in moves}  # type: ignore[type-var] # dataclasses
-        segments = [usual_moves.get(i, each) for i, each in enumerate(cycle.segments)]
+        segments = segments_with(USUAL, cycle, moves)
+        for i in moves:
+            segments[i] = replace(segments[i], limits={})  # type: ignore[type-var] # dataclasses
         usual = with_laws(cycle, segments, limits={})
         usual.unchecked()
     except InputError:
@@ -50,11 +57,11 @@ def why_without_usual_law(cycle: Cycle) -> str:
     >>> from optlaws import Cycle, Free, Return
     >>> through = Free("60 mm", "0.3 s", via=[("0.1 s", "50 mm")])
     >>> why_without_usual_law(Cycle([through, Return("60 mm")], period="1 s"))
-    'modified sine cannot stand beside these laws: it goes from rest to rest, and not all of these moves do'
+    'modified sine cannot stand beside these laws: they pass given points, or have other velocities at their ends'
     """
     if _has_usual_law(cycle):
         return ""
-    return f"{USUAL} cannot stand beside these laws: it goes from rest to rest, and not all of these moves do"
+    return f"{USUAL} cannot stand beside these laws: they pass given points, or have other velocities at their ends"
 
 
 def _has_usual_law(cycle: Cycle) -> bool:
@@ -69,12 +76,32 @@ def may_have_another_law(segment: CycleSegment) -> bool:
     )
 
 
-def with_law(law: str, segment: CycleSegment) -> CycleSegment:
-    """A segment with a law of the catalogue."""
+def segments_with(law: str, cycle: Cycle, moves: Container[int]) -> list[CycleSegment]:
+    """The segments of a cycle, those of some numbers from 0 with a law of the catalogue.
+
+    Where a motion begins and ends with one velocity, the law is added to the uniform motion (eq. 1.17).
+
+    Raises
+    ------
+    InputError
+        If one of them passes given points, or has a velocity at its ends that the law cannot have.
+    """
+    fixed = all(stretch.fixed for stretch in cycle.programme.stretches)
+    alone = [span for span in cycle.layout.spans if len(span.stretches) == 1 and not span.turns] if fixed else []
+    spans = {span.stretches[0].number - 1: span for span in alone}
+    return [_with_law(law, each, spans.get(i)) if i in moves else each for i, each in enumerate(cycle.segments)]
+
+
+def _with_law(name: str, segment: CycleSegment, span: LawSpan | None) -> CycleSegment:
+    law: str | MotionLaw = name
+    if span is not None and span.displacement and span.first.velocity:
+        uniform = span.first.velocity * span.duration / span.displacement
+        if isclose(span.first.velocity, span.last.velocity, rel_tol=CLOSURE):
+            law = with_end_velocity(named_law(name, segment.label), uniform)
     if isinstance(segment, Free):
         if segment.via:
             raise InputError(f"{segment.label}: a law of the catalogue passes no points that are given")
         return Move(segment.by, segment.duration, to=segment.to, law=law, limits=segment.limits, name=segment.label)
-    if isinstance(segment, Move) and (segment.start_velocity, segment.end_velocity) != (None, None):
-        raise InputError(f"{segment.label}: a law of the catalogue has no velocity at its ends")
-    return replace(segment, law=law)  # type: ignore[type-var] # a dataclass
+    if isinstance(segment, Move) and law is name and (segment.start_velocity, segment.end_velocity) != (None, None):
+        raise InputError(f"{segment.label}: a law of the catalogue has not these velocities at its ends")
+    return replace(segment, law=law, start_velocity=None, end_velocity=None)  # type: ignore[type-var] # a dataclass

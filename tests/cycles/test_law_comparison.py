@@ -201,8 +201,28 @@ RISE, RETURN = Rise("35 mm", "120 deg"), Return("35 mm", "100 deg")
         [Move("20 mm", "100 deg", end_velocity="0.2 m/s"), ConstantVelocity("0.2 m/s", "40 deg"), Return()],
     ],
 )
-def test_there_is_none_where_all_moves_have_it_or_one_is_not_from_rest_to_rest(segments: Any) -> None:
+def test_there_is_none_where_all_moves_have_it_or_one_ends_otherwise_than_it_begins(segments: Any) -> None:
     assert usual_cycle(Cycle(segments, speed="200 rpm")) is None
+
+
+def test_between_equal_velocities_it_is_added_to_the_uniform_motion() -> None:
+    knife = [ConstantVelocity("1.5 m/s", "80 ms"), Return()]
+    usual = usual_cycle(Cycle(knife, period="400 ms"))
+    assert usual is not None
+    beyond = 1.5 * 0.4  # what the return takes back beside the uniform motion
+    assert usual.peak(2) == pytest.approx(SINE.constants.C.value * beyond / 0.32**2, rel=1e-9)
+    times = np.linspace(0.08, 0.4, 9)
+    law = SINE.a((times - 0.08) / 0.32)
+    assert usual(times) == pytest.approx(0.12 + 1.5 * (times - 0.08) - beyond * law, abs=1e-12)
+    started = Move("0.3 m", "0.2 s", start_velocity="1 m/s", end_velocity="1 m/s")
+    moved = usual_cycle(Cycle([started, ConstantVelocity("1 m/s", "0.1 s")], period="0.3 s", advance="400 mm"))
+    assert moved is not None
+    assert moved.peak(2) == pytest.approx(SINE.constants.C.value * 0.1 / 0.2**2, rel=1e-9)
+    # what ends where it begins has no law of stroke 1
+    assert (
+        usual_cycle(Cycle([ConstantVelocity("1 m/s", "0.1 s"), Move("0 m", "0.2 s")], period="0.3 s", advance="100 mm"))
+        is None
+    )
 
 
 def test_a_difference_is_a_share_of_the_usual_value_and_nothing_of_0() -> None:

@@ -27,7 +27,7 @@ from optlaws.cycles.specification.limits import (
 from optlaws.cycles.specification.load import is_process
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.specification.segments import OPTIMAL, CycleSegment, Move
-from optlaws.cycles.usual_law import may_have_another_law, with_law
+from optlaws.cycles.usual_law import may_have_another_law, segments_with
 from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
@@ -379,7 +379,7 @@ class Candidates:
 
     def _standard(self, name: str) -> AdvisedLaw:
         """The cycle with a law of the catalogue in all its moves; refused where it does not fit."""
-        advised = self._advised(name, "standard", self._known(self._segments(partial(with_law, name))))
+        advised = self._advised(name, "standard", self._known(segments_with(name, self.cycle, self._compared)))
         if self.minimise != self._left and not self._objective(advised) > 0.0:
             raise InputError(
                 f"the {quantity_name(self.minimise)} of {name} is 0 between its ends, where its velocity jumps, so "

@@ -19,11 +19,13 @@ from optlaws import (
     InputError,
     Mechanism,
     Motor,
+    Move,
     Problem,
     Return,
     Rise,
     advise,
     at_most,
+    catalogue,
     compare_laws,
     synthesize,
 )
@@ -329,8 +331,19 @@ def test_a_motor_is_asked_for_what_it_takes() -> None:
     assert "least RMS torque" not in [law.name for law in advice]
 
 
-def test_what_cannot_be_compared_says_why() -> None:
+def test_standard_laws_stand_on_the_uniform_motion_between_equal_velocities() -> None:
     web = Cycle([ConstantVelocity("1.5 m/s", "80 ms"), Return()], period="400 ms", degree=9)
+    shear = advise(web, points=0, degree=9)
+    assert shear.errors == {}
+    for name in STANDARD:
+        beside = 1.5 * 0.4 / 0.32**2  # what the return takes back beside the uniform motion
+        assert shear[name].values["acceleration"] == pytest.approx(catalogue[name].law.constants.C.value * beside)
+    assert shear.recommendation.usual is shear["modified sine"]
+
+
+def test_what_cannot_be_compared_says_why() -> None:
+    slowed = [ConstantVelocity("1.5 m/s", "80 ms"), Move("-60 mm", "120 ms"), Dwell("80 ms"), Return()]
+    web = Cycle(slowed, period="400 ms", degree=9)
     shear = advise(web, points=0, degree=9)
     assert set(shear.errors) == set(STANDARD)
     assert "a jump of 1500 mm/s" in str(shear.errors["modified sine"])
