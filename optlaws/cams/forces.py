@@ -405,10 +405,10 @@ class CamForces:
             raise InputError(f"the follower cannot follow the cam, so that there is no pressure: {undercut}") from None
 
 
-def roots(square: Extremes, rounding: float = 0.0) -> Extremes:
-    """The square roots of extremes, 0 where the square is below 0 or `rounding` of its greatest value."""
+def roots(square: Extremes) -> Extremes:
+    """The square roots of extremes, 0 where the square, which is as the force, is below 0 or rounding."""
     sizes = {name: getattr(square, name) for name in ("least", "low", "most", "high")}
-    least = max(rounding * square.most, 0.0)
+    least = max(FORCE_ROUNDING * square.most, 0.0)
     return square._replace(**{name: sqrt(size) if size > least else 0.0 for name, size in sizes.items()})
 
 

@@ -18,7 +18,6 @@ from optlaws.numerics.branch_and_bound import Extremes
 from optlaws.numerics.interval import Interval, chosen, middle
 from optlaws.numerics.roots import bisect
 from optlaws.numerics.taylor import Jet
-from optlaws.tolerances import FORCE_ROUNDING
 
 _OF_CONTACT = ("friction", "width", "materials")
 #: angles between edges at which the sign of the force is looked at
@@ -125,12 +124,12 @@ class PairForces(CamForces):
     @kept_property
     def pressure(self) -> Extremes:
         """Least and greatest of Hertz's pressure of the first cam, enclosed over the turn."""
-        return roots(self._enclosed(self._squared_pressure), FORCE_ROUNDING)
+        return roots(self._enclosed(self._squared_pressure))
 
     @kept_property
     def pressure_of_return(self) -> Extremes:
         """Least and greatest of Hertz's pressure of the return cam, enclosed over the turn."""
-        return roots(self._enclosed(self._return_squared_pressure), FORCE_ROUNDING)
+        return roots(self._enclosed(self._return_squared_pressure))
 
     @property
     def curves(self) -> list[ForceCurve]:

@@ -50,6 +50,7 @@ if TYPE_CHECKING:
 
 #: of numbers on pages; files have all
 DIGITS = 5
+_RESERVES = {"length": "20 N", "angle": "1 N m"}  # examples of the least force that a spring is to keep
 _INSIDE = 1e-9  # of a smooth part: so near to its ends it is drawn
 _USUAL_PRESSURE = 30.0  # deg: what the roller of a slide is led by at most without a reason
 _FAR = 4.0  # a radius of curvature beyond so many prime circles is a straight edge
@@ -443,13 +444,19 @@ def _pressing(forces: CamForces) -> str:
     return f"The return cam presses its follower from {joined(' and from ', parts)}, the other cam elsewhere."
 
 
-def leaves_at(forces: CamForces) -> str:
-    """The sentence of it for the head of a page, with where and the remedy; blank where the follower stays pressed."""
+def leaves_at(forces: CamForces, *, sought: bool = False) -> str:
+    """The sentence of it for the head of a page, with where and the remedy; blank where the follower stays pressed.
+
+    The remedy is another one where its spring was sought.
+    """
     left = leaves(forces)
     if not left:
         return ""
-    at = f"{_least_contact_at(forces):.{DIGITS}g} deg"
-    return f"{capital(left)} at {at}: give its spring more preload or stiffness, or reduce the speed."
+    remedy = "give its spring more preload or stiffness, or reduce the speed"
+    if sought:
+        force = _RESERVES[forces.cam.displacement.axis]
+        remedy = f'its spring is the least one; for a reserve give [spring] a least force, such as force = "{force}"'
+    return f"{capital(left)} at {_least_contact_at(forces):.{DIGITS}g} deg: {remedy}."
 
 
 def _least_contact_at(forces: CamForces) -> float:

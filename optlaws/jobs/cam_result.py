@@ -322,7 +322,7 @@ class CamResult(SoughtCam):
         """What stands before everything else: that the follower leaves the cam, or that the cam is of metres."""
         radius = positive(self.cam.prime_radius, "prime_radius")
         large = f"The prime circle has a radius of {radius:.{DIGITS}g} m: a length without a unit is in metres."
-        left = "" if self.forces is None else leaves_at(self.forces)
+        left = "" if self.forces is None else leaves_at(self.forces, sought=self._needs_spring or self.counted)
         return " ".join(filter(None, [large if radius > _LARGE else "", left]))
 
     @property

@@ -597,6 +597,16 @@ def test_a_follower_that_lifts_off_is_the_first_sentence_of_its_page(tmp_path: P
     (tmp_path / "held").mkdir()
     held = motion.replace('"2 kg"', '"2 kg", stiffness = "3 N/mm", preload = "100 N"')
     assert "lifts off" not in done(tmp_path / "held", text.replace(motion, held))[0]
+    # the least spring leaves no force: what it takes to have some is an entry of it
+    spring, advice = '[spring]\nspeeds = ["0 rpm", "200 rpm"]\n', 'give [spring] a least force, such as force = "20 N"'
+    for name, least in (("least", ""), ("reserve", 'force = "20 N"\n')):
+        (tmp_path / name).mkdir()
+        page, reply, _ = done(
+            tmp_path / name, text.replace("[forces]\n", f'[forces]\nwidth = "20 mm"\n{spring}{least}')
+        )
+        assert (advice in page) is ("touches without force" in page) is (name == "least")
+        assert "give its spring" not in page
+        assert (reply["forces"]["pressure"]["least"] == 0.0) is (name == "least")
 
 
 def test_what_the_reserve_of_a_spring_costs_beside_the_usual_law_is_said(tmp_path: Path) -> None:
