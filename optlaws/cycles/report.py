@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from math import inf, pi
+from math import inf
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -26,7 +26,7 @@ from optlaws.mechanisms.drives.drive_train import Drive
 from optlaws.mechanisms.linkages.mechanism import Mechanism
 from optlaws.motion.derivative_panel import DERIVATIVES, display_unit, motion_panel, picture_unit, times_in
 from optlaws.motion.piece import unit_of
-from optlaws.motion.quantities import MILLI, QUANTITIES, RPM, TURN_DEG, UNITS, Kind
+from optlaws.motion.quantities import MILLI, QUANTITIES, RPM, TURN, TURN_DEG, UNITS, Derived, Kind
 from optlaws.numbers import Array, bounded, chop, chopped
 from optlaws.sentences import quantity_name
 from optlaws.shown.curve_points import refined
@@ -476,8 +476,10 @@ def drive_rows(plan: Solved) -> list[Row]:
             Row(f"RMS {name}", effort.rms_force, force, note=f"at {driven}"),
             Row("peak power", effort.peak_power, "W"),
             Row("mean power", effort.mean_power, "W"),
-            Row("peak torque at the master's shaft", effort.shaft_torque(2.0 * pi / plan.duration), "N m", note=of),
         ]
+        if not isinstance(plan.specification.speed, Derived):  # else it has a period, and no shaft
+            torque = effort.shaft_torque(TURN / plan.duration)
+            rows.append(Row("peak torque at the master's shaft", torque, "N m", note=of))
         if isinstance(plan.drive, Mechanism):
             rows += [
                 Row("greatest power, motoring", effort.motoring_power, "W"),
