@@ -20,6 +20,7 @@ from optlaws.errors import InputError, OptlawsError, located
 from optlaws.numbers import bounded
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.arrays.programs import NO_CONTACT
+from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.program.writer import model_of
@@ -169,20 +170,23 @@ def _stored(entries: StatedSolutions, shape: tuple[int, ...]) -> StoredSolutions
     results: dict[int, Solution | OptlawsError] = {}
     for place, data in enumerate(entries.solutions):
         with located(f"solutions[{place}]"):
+            problem = partial(problems.problem, place)
             if "error" in data:
                 row = stated(data, StatedError, "row without a law")
-                results[place] = read_error(row, partial(problems.problem, place))
+                if row.problem is not None:
+                    _check_problem(row.problem, problem())
+                results[place] = read_error(row, problem)
             else:
                 state = {"state": beside[place]} if place in beside else {}
-                results[place] = _solution(stated(state | data, StatedSolution, "solution"), problems, place)
+                law = stated(state | data, StatedSolution, "solution")
+                _check_problem(law.problem, problem())
+                results[place] = Solution(**attributes(law, problem()))
     return StoredSolutions(problems, results, entries.seconds)
 
 
-def _solution(row: StatedSolution, problems: ProblemArray, place: int) -> Solution:
-    problem = problems.problem(place)
-    if row.problem != as_json(problem.to_dict()):
+def _check_problem(given: Plain, problem: Problem) -> None:
+    if given != as_json(problem.to_dict()):
         raise InputError("its problem is another than that of the arrays")
-    return Solution(**attributes(row, problem))
 
 
 def _problems(entries: StatedSolutions, shape: tuple[int, ...]) -> ProblemArray:
