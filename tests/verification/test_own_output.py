@@ -37,9 +37,14 @@ def unproven(problem: Problem) -> list[str] | None:
 
 @pytest.mark.parametrize("seed", sampled(range(30), 30))
 def test_random_optima_are_proven(seed: int) -> None:
-    left = {repr(one.problem): unproven(one.problem) for one in every_option(seed, 6)}
-    assert {name: claims for name, claims in left.items() if claims} == {}
-    assert sum(claims is not None for claims in left.values()) > 2
+    proven = 0
+    for i, one in enumerate(every_option(seed, 30)):
+        if i >= 6 and proven > 2:  # of some seeds the first six are without a proven optimum
+            break
+        claims = unproven(one.problem)
+        assert not claims, one.problem
+        proven += claims is not None
+    assert proven > 2
 
 
 @examples(60)
