@@ -15,7 +15,7 @@ import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.entries.value_types import ReadBy, ValueType
-from optlaws.errors import InputError
+from optlaws.errors import InputError, located
 from optlaws.formulas.arithmetic import NUMPY, evaluate, horner, pieces
 from optlaws.formulas.convexity import Endpoints, affine, enclosed
 from optlaws.formulas.jets import formula_jet
@@ -73,6 +73,7 @@ _FEWEST = 2
 #: places at which a formula is looked at first, cells, how often these are cut, and how many of unknown sign at most
 _LOOKS, _CELLS, _CUTS, _MOST = 1441, 64, 9, 512
 #: a number with a unit behind it; in formulas a number is followed by a sign
+_FILE = re.compile(r"\.(csv|tsv|txt|dat|json|xlsx?)\s*$", re.IGNORECASE)
 _WITH_UNIT = re.compile(r"\s*[+-]?[\d./]*\d(?:[eE][+-]?\d+)?+\s*[^\W\d_]")
 
 
@@ -145,6 +146,9 @@ def formula_of(
     0.02
     >>> formula_of({"0 deg": "0 N m", "180 deg": "3 N m"}, ("angle", "torque"), "load", interpolation="lines")
     table(x, 0:0, 3.141592653589793:3)
+    >>> formula_of("load.csv", ("angle", "torque"), "load")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: load cannot be read from a file: give the rows of 'load.csv' in a list, as pairs of a ...
     """
     if isinstance(given, Formula):
         return given
@@ -160,7 +164,13 @@ def formula_of(
         places, values = zip(*numbers, strict=True)
         return Table(Name(variable), places, values, JOINED[interpolation])
     if isinstance(given, str) and _WITH_UNIT.match(given) is None:
-        formula = read(given, (variable,))
+        if _FILE.search(given):
+            raise InputError(
+                f"{name} cannot be read from a file: give the rows of {shortened(given)} in a list, as pairs of a "
+                f"place and a value with units, or a formula of {variable}"
+            )
+        with located(name):
+            formula = read(given, (variable,))
         for part in formula.different:
             if isinstance(part, Table) and part.kind == "spline":
                 _check_shape(part, name)
