@@ -23,6 +23,7 @@ from optlaws import (
     Move,
     Return,
     Rise,
+    belt,
     catalogue,
     slider_crank,
 )
@@ -78,6 +79,7 @@ def test_a_motor_with_a_gear_needs_less_by_a_law_of_its_own() -> None:
     ("segments", "drive", "says"),
     [
         ([Rise("35 mm", "0.2 s"), Return()], PRESS, "turns and the motion of the cycle slides"),
+        ([Rise("35 mm", "0.2 s"), Return()], belt("30 mm", "8 kg"), "10 mm of the slide are 19.0986 deg of the input"),
         ([Rise("35 mm", "0.2 s"), Return()], 3.0, "drive"),
         (
             [Move(to="200 deg", duration="0.2 s"), Return()],
@@ -85,7 +87,7 @@ def test_a_motor_with_a_gear_needs_less_by_a_law_of_its_own() -> None:
             "180 deg",
         ),
     ],
-    ids=["axis", "number", "range"],
+    ids=["axis", "belt", "number", "range"],
 )
 def test_wrong_drives_are_refused(segments: list[object], drive: object, says: str) -> None:
     with pytest.raises(InputError, match=says):

@@ -22,9 +22,10 @@ from optlaws.mechanisms.linkages.mechanism_formulas import (
     OverPlace,
     TableKind,
     formula_of,
+    line_of,
     rescaled,
 )
-from optlaws.motion.quantities import TURN
+from optlaws.motion.quantities import TURN, in_degrees
 from optlaws.tolerances import CLOSURE
 
 
@@ -53,6 +54,15 @@ CONSTANTS = {
 }
 
 
+def _in_proportion(mechanism: Mechanism) -> str:
+    """How far the input turns for a way of a slide that moves in proportion to it; blank where none does."""
+    for name, position in mechanism.linkage.driven if mechanism.axis == "angle" else ():
+        line = line_of(position)
+        if line is not None and line[0]:
+            return f": 10 mm of the {name} are {in_degrees(0.01 / abs(line[0]))} of the input"
+    return ""
+
+
 def read_drive(entries: Mapping[str, Any] | Mechanism | Drive, axis: str) -> Drive:
     """A drive, a mechanism that is driven at its input, or constants with their units, 0 unless given, as one.
 
@@ -68,7 +78,7 @@ def read_drive(entries: Mapping[str, Any] | Mechanism | Drive, axis: str) -> Dri
             return drive
         raise InputError(
             f"drive: the input of the {drive.mechanism.name} {moves[places]} and the motion of the cycle "
-            f"{moves[axis]}: give the cycle the positions of that input, {places}s"
+            f"{moves[axis]}: give the cycle the positions of that input, {places}s{_in_proportion(drive.mechanism)}"
         )
     given = CONSTANTS[axis].read(entries, "drive")
     types: Mapping[str, Any] = {name: each.type for name, each in CONSTANTS[axis].entries.items()}
