@@ -86,8 +86,9 @@ def segments_with(law: str, cycle: Cycle, moves: Container[int]) -> list[CycleSe
     InputError
         If one of them passes given points, or has a velocity at its ends that the law cannot have.
     """
-    fixed = all(stretch.fixed for stretch in cycle.programme.stretches)
-    alone = [span for span in cycle.layout.spans if len(span.stretches) == 1 and not span.turns] if fixed else []
+    given = cycle.specification
+    fixed = all(stretch.fixed for stretch in given.programme.stretches)
+    alone = [span for span in given.layout.spans if len(span.stretches) == 1 and not span.turns] if fixed else []
     spans = {span.stretches[0].number - 1: span for span in alone}
     return [_with_law(law, each, spans.get(i)) if i in moves else each for i, each in enumerate(cycle.segments)]
 
