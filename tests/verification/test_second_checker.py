@@ -15,6 +15,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from optlaws import (
+    BoundaryConditions,
     BSplines,
     Certificate,
     Chebyshev,
@@ -287,6 +288,19 @@ def test_what_the_rounding_of_multipliers_hides_is_not_called_false(tmp_path: Pa
     hidden, above = checked_each([data | {"bound": bound} for bound in bounds], tmp_path)
     assert verdicts(hidden) == {"not checked"}
     assert verdicts(above) == {"not proven"}
+
+
+def test_rows_that_do_not_contradict_each_other_bound_no_objective_below_zero(tmp_path: Path) -> None:
+    ends = BoundaryConditions(start=(0.0, 0.0), end=(1.0, 2.0))
+    twice = (via("c", 1.0, at=0.2),) * 2
+    problem = Problem(order=2, basis=Chebyshev(5), minimise="C_minus", symmetric=False, boundary=ends, windows=twice)
+    data = synthesize(problem).to_dict()
+    assert verdicts(checked(data, tmp_path)) == {"proven"}
+    assert data["objective"] < -0.9
+    # of both equations nothing but rounding is left, and nothing bounds the laws
+    proof = {"program": "violation", "contacts": [], "equations": [1.0, 2.0**-50 - 1.0], "bound": None}
+    claims = checked(data | {"lower_bound": 0.0, "certificate": data["certificate"] | proof}, tmp_path)
+    assert false(claims) == ["the file: lower bound"]
 
 
 def _machine_problems(count: int, seed: int) -> Iterator[Problem]:

@@ -158,7 +158,7 @@ export function provenBy(certificate) {
   const charge = chargeOf(rows, total, claim, contradiction);
   if (charge === null) {
     const unbounded = total.constant.sign > 0 && isRounding(rows, total, used);
-    return { bound: contradiction ? ZERO : floorOf(rows), contradiction, unbounded };
+    return { bound: contradiction ? null : floorOf(rows), contradiction, unbounded };
   }
   const value = total.constant.minus(charge);
   if (contradiction) return { bound: value, contradiction };
