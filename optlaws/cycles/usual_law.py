@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Container
 from dataclasses import replace
 from math import isclose
 from typing import TYPE_CHECKING
@@ -37,10 +36,9 @@ def usual_cycle(cycle: Cycle) -> Cycle | None:
     """
     if _has_usual_law(cycle):
         return None
-    moves = [i for i, each in enumerate(cycle.segments) if may_have_another_law(each)]
     try:
-        segments = segments_with(USUAL, cycle, moves)
-        for i in moves:
+        segments = segments_with(USUAL, cycle)
+        for i in comparable_moves(cycle):
             segments[i] = replace(segments[i], limits={})  # type: ignore[type-var] # dataclasses
         usual = with_laws(cycle, segments, limits={})
         usual.unchecked()
@@ -66,18 +64,29 @@ def why_without_usual_law(cycle: Cycle) -> str:
 
 def _has_usual_law(cycle: Cycle) -> bool:
     """Whether all moves that may have another law have the usual one."""
-    return all(getattr(each, "law", None) == USUAL for each in cycle.segments if may_have_another_law(each))
+    return all(getattr(cycle.segments[i], "law", None) == USUAL for i in comparable_moves(cycle))
 
 
-def may_have_another_law(segment: CycleSegment) -> bool:
-    """Whether a segment is a motion that is optimised, or a move whose given law does not end in motion."""
+def comparable_moves(cycle: Cycle) -> tuple[int, ...]:
+    """The numbers, from 0, of the segments that may have another law: all moves but those whose law ends in motion.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Dwell, Return, Rise
+    >>> comparable_moves(Cycle([Rise("35 mm", "120 deg"), Dwell("60 deg"), Return()], speed="200 rpm"))
+    (0, 2)
+    """
+    return tuple(i for i, each in enumerate(cycle.segments) if _may_have_another_law(each))
+
+
+def _may_have_another_law(segment: CycleSegment) -> bool:
     return is_optimal(segment) or (
         isinstance(segment, Move) and not moves_at(named_law(segment.law, segment.label), 0, 1)
     )
 
 
-def segments_with(law: str, cycle: Cycle, moves: Container[int]) -> list[CycleSegment]:
-    """The segments of a cycle, those of some numbers from 0 with a law of the catalogue.
+def segments_with(law: str, cycle: Cycle) -> list[CycleSegment]:
+    """The segments of a cycle with a law of the catalogue in all its comparable moves.
 
     Where a motion begins and ends with one velocity, the law is added to the uniform motion (eq. 1.17).
 
@@ -86,23 +95,30 @@ def segments_with(law: str, cycle: Cycle, moves: Container[int]) -> list[CycleSe
     InputError
         If one of them passes given points, or has a velocity at its ends that the law cannot have.
     """
-    given = cycle.specification
+    given, segments = cycle.specification, list(cycle.segments)
     fixed = all(stretch.fixed for stretch in given.programme.stretches)
     alone = [span for span in given.layout.spans if len(span.stretches) == 1 and not span.turns] if fixed else []
     spans = {span.stretches[0].number - 1: span for span in alone}
-    return [_with_law(law, each, spans.get(i)) if i in moves else each for i, each in enumerate(cycle.segments)]
+    for i in comparable_moves(cycle):
+        segments[i] = _with_law(law, segments[i], spans.get(i))
+    return segments
 
 
 def _with_law(name: str, segment: CycleSegment, span: LawSpan | None) -> CycleSegment:
-    law: str | MotionLaw = name
-    if span is not None and span.displacement and span.first.velocity:
-        uniform = span.first.velocity * span.duration / span.displacement
-        if isclose(span.first.velocity, span.last.velocity, rel_tol=CLOSURE):
-            law = with_end_velocity(named_law(name, segment.label), uniform)
+    added = None if span is None else _on_uniform_motion(name, span)
+    law = name if added is None else added
     if isinstance(segment, Free):
         if segment.via:
             raise InputError(f"{segment.label}: a law of the catalogue passes no points that are given")
         return Move(segment.by, segment.duration, to=segment.to, law=law, limits=segment.limits, name=segment.label)
-    if isinstance(segment, Move) and law is name and (segment.start_velocity, segment.end_velocity) != (None, None):
+    if isinstance(segment, Move) and added is None and (segment.start_velocity, segment.end_velocity) != (None, None):
         raise InputError(f"{segment.label}: a law of the catalogue has not these velocities at its ends")
     return replace(segment, law=law, start_velocity=None, end_velocity=None)  # type: ignore[type-var] # a dataclass
+
+
+def _on_uniform_motion(name: str, span: LawSpan) -> MotionLaw | None:
+    """A law of the catalogue added to the uniform motion of a span between equal velocities; None without these."""
+    first, last = span.first.velocity, span.last.velocity
+    if not (first and span.displacement and isclose(first, last, rel_tol=CLOSURE)):
+        return None
+    return with_end_velocity(named_law(name, span.where), first * span.duration / span.displacement)

@@ -27,7 +27,7 @@ from optlaws.cycles.specification.limits import (
 from optlaws.cycles.specification.load import is_process
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.cycles.specification.segments import OPTIMAL, CycleSegment, Move
-from optlaws.cycles.usual_law import may_have_another_law, segments_with
+from optlaws.cycles.usual_law import comparable_moves, segments_with
 from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
@@ -379,7 +379,7 @@ class Candidates:
 
     def _standard(self, name: str) -> AdvisedLaw:
         """The cycle with a law of the catalogue in all its moves; refused where it does not fit."""
-        advised = self._advised(name, "standard", self._known(segments_with(name, self.cycle, self._compared)))
+        advised = self._advised(name, "standard", self._known(segments_with(name, self.cycle)))
         if self.minimise != self._left and not self._objective(advised) > 0.0:
             raise InputError(
                 f"the {quantity_name(self.minimise)} of {name} is 0 between its ends, where its velocity jumps, so "
@@ -431,7 +431,7 @@ class Candidates:
     @kept_property
     def _compared(self) -> tuple[int, ...]:
         """The numbers of the segments whose laws are compared: all moves except moves that end in motion."""
-        numbers = tuple(i for i, each in enumerate(self.cycle.segments) if may_have_another_law(each))
+        numbers = comparable_moves(self.cycle)
         if not numbers:
             raise InputError("the cycle has no move whose law could be another: laws are compared from rest to rest")
         return numbers

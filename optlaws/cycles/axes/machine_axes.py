@@ -15,7 +15,7 @@ from optlaws.cycles.placed import with_laws
 from optlaws.cycles.specification.periods import best_possible_row
 from optlaws.cycles.specification.programme import is_optimal, period_of
 from optlaws.cycles.specification.segments import SEGMENTS, CycleSegment, Dwell
-from optlaws.cycles.usual_law import may_have_another_law, segments_with
+from optlaws.cycles.usual_law import segments_with
 from optlaws.echo import shortened
 from optlaws.entries.declared import Declared, declared, entry, same
 from optlaws.entries.value_types import Choice, Listed, Number, ReadBy, Text
@@ -509,10 +509,7 @@ def _overlapped(given: Axes, goal: Goal, longer: Sequence[str]) -> Overlap:
 
 def _with_usual_law(given: Axes) -> Axes:
     """The machine with the usual law in all moves that may have another one."""
-    usual = {}
-    for name, cycle in given.items():
-        moves = [i for i, each in enumerate(cycle.segments) if may_have_another_law(each)]
-        usual[name] = with_laws(cycle, segments_with(USUAL, cycle, moves))
+    usual = {name: with_laws(cycle, segments_with(USUAL, cycle)) for name, cycle in given.items()}
     return Axes(usual, interlocks=given.rules)
 
 
