@@ -269,7 +269,10 @@ class CamForces:
 
     @kept_property
     def pressure(self) -> Extremes:
-        """Least and greatest of Hertz's pressure, enclosed over the turn; 0 where the follower lifts off."""
+        """Least and greatest of Hertz's pressure, enclosed over the turn; 0 where the follower lifts off.
+
+        Of a pair it is that of the first cam, 0 where the return cam presses.
+        """
         return roots(self._enclosed(self._squared_pressure))
 
     @property

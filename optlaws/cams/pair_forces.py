@@ -122,11 +122,6 @@ class PairForces(CamForces):
         return self._enclosed(self._return_contact)
 
     @kept_property
-    def pressure(self) -> Extremes:
-        """Least and greatest of Hertz's pressure of the first cam, enclosed over the turn."""
-        return roots(self._enclosed(self._squared_pressure))
-
-    @kept_property
     def pressure_of_return(self) -> Extremes:
         """Least and greatest of Hertz's pressure of the return cam, enclosed over the turn."""
         return roots(self._enclosed(self._return_squared_pressure))

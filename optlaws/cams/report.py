@@ -31,18 +31,19 @@ from optlaws.cams.least_sizes import CamLimits
 from optlaws.cams.pair_forces import PairForces
 from optlaws.cycles.cycle import Cycle, Plan
 from optlaws.cycles.placed import broken_limits
+from optlaws.cycles.report import motion_columns
 from optlaws.cycles.usual_law import usual_cycle
 from optlaws.kept import kept_property
 from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.motion.quantities import DEGREES, MILLI, QUANTITIES, TURN, TURN_DEG, UNITS, in_degrees
-from optlaws.numbers import Array, NumberOrQuantity, bounded, chop, chopped
+from optlaws.numbers import Array, NumberOrQuantity, bounded, chop
 from optlaws.numerics.peaks import is_kept
 from optlaws.sentences import Amount, Sentence, capital, joined, sentence
 from optlaws.shown.curve_points import refined
 from optlaws.shown.difference import Differences
 from optlaws.shown.report import Panel, PanelLimit, ReportSegment, ReportTable, Section, Series
 from optlaws.shown.summary import Row, Summary
-from optlaws.tolerances import CAM_FEASIBILITY, CYCLE_ROUNDING, FORCE_ROUNDING, RADIUS_ROUNDING
+from optlaws.tolerances import CAM_FEASIBILITY, FORCE_ROUNDING, RADIUS_ROUNDING
 
 if TYPE_CHECKING:
     from optlaws.cams.curves.extremes import EnclosedExtreme
@@ -50,6 +51,7 @@ if TYPE_CHECKING:
 
 #: of numbers on pages; files have all
 DIGITS = 5
+_MOTION = ("displacement", *QUANTITIES[1:])
 _RESERVES = {"length": "20 N", "angle": "1 N m"}  # examples of the least force that a spring is to keep
 _INSIDE = 1e-9  # of a smooth part: so near to its ends it is drawn
 _USUAL_PRESSURE = 30.0  # deg: what the roller of a slide is led by at most without a reason
@@ -381,12 +383,8 @@ def barrel_coordinates(cam: BarrelCam, count: int, rate: float, cutter: NumberOr
 
 def _motion(motion: CamMotion, angles: Array, rate: float) -> dict[str, Array]:
     """Displacement, velocity, acceleration and jerk of a follower at a speed of the cam; what is rounding is 0."""
-    columns = {}
-    for nu, (name, (unit, factor)) in enumerate(zip(QUANTITIES, UNITS[motion.axis], strict=True)):
-        values = np.asarray(motion(angles, nu))
-        scaled = factor * rate**nu * chopped(values, float(np.abs(values).max()), CYCLE_ROUNDING)
-        columns[f"{name if nu else 'displacement'}, {unit}"] = scaled
-    return columns
+    values = [rate**nu * np.asarray(motion(angles, nu)) for nu in range(len(_MOTION))]
+    return motion_columns(values, [float(np.abs(each).max()) for each in values], motion.axis, _MOTION)
 
 
 def _coordinates(

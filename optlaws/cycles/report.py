@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from math import inf
@@ -381,12 +381,23 @@ def motion_table(
     degrees = np.linspace(*master, count)
     times = np.minimum((degrees - master[0]) * (motion.duration / (master[1] - master[0])), motion.duration)
     columns = {"master, deg": degrees.tolist(), "time, s": times.tolist()}
-    for nu, (name, (unit, factor)) in enumerate(zip(QUANTITIES, UNITS[motion.axis], strict=True)):
-        values = chopped(np.asarray(motion(times, nu)), motion.peak(nu), CYCLE_ROUNDING)
-        columns[f"{name}, {unit}"] = (factor * values).tolist()
+    orders = range(len(QUANTITIES))
+    values = [np.asarray(motion(times, nu)) for nu in orders]
+    of_motion = motion_columns(values, [motion.peak(nu) for nu in orders], motion.axis)
+    columns |= {name: column.tolist() for name, column in of_motion.items()}
     for name, driven in more(times).items():
         columns[name] = chopped(driven, float(np.abs(driven).max()), CYCLE_ROUNDING).tolist()
     return ReportTable.of_columns(columns)
+
+
+def motion_columns(
+    values: Sequence[Array], peaks: Sequence[float], axis: str, names: Sequence[str] = QUANTITIES
+) -> dict[str, Array]:
+    """A position, m or rad, and its three derivatives by time in units of tables; what is rounding of a peak is 0."""
+    return {
+        f"{name}, {unit}": factor * chopped(each, peak, CYCLE_ROUNDING)
+        for name, (unit, factor), each, peak in zip(names, UNITS[axis], values, peaks, strict=True)
+    }
 
 
 def objective_unit(cycle: Specification | Solved, name: str = "") -> str:

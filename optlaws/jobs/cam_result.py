@@ -254,7 +254,7 @@ class CamResult(SoughtCam):
         """The sentence on the spring with which the forces are computed; empty where none is looked for."""
         if self.spec.spring is None:
             return ""
-        if self._needs_spring or self.counted:
+        if self._has_least_spring:
             return "The least spring, which stands below, presses the follower on the cam here."
         return "The spring of the drive presses the follower on the cam here, not the least one, which stands below."
 
@@ -322,7 +322,7 @@ class CamResult(SoughtCam):
         """What stands before everything else: that the follower leaves the cam, or that the cam is of metres."""
         radius = positive(self.cam.prime_radius, "prime_radius")
         large = f"The prime circle has a radius of {radius:.{DIGITS}g} m: a length without a unit is in metres."
-        left = "" if self.forces is None else leaves_at(self.forces, sought=self._needs_spring or self.counted)
+        left = "" if self.forces is None else leaves_at(self.forces, sought=self._has_least_spring)
         return " ".join(filter(None, [large if radius > _LARGE else "", left]))
 
     @property

@@ -300,6 +300,11 @@ class SoughtCam:
         return self.spec.spring is not None and not self._linear_drive.keys() & _SPRING.keys()
 
     @property
+    def _has_least_spring(self) -> bool:
+        """Whether the least spring of these laws is the one that presses the follower on the cam."""
+        return self._needs_spring or self.counted
+
+    @property
     def _linear_drive(self) -> dict[str, Any]:
         """The constants of the drive; none where it has none."""
         drive = self.spec.cycle.drive

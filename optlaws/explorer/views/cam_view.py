@@ -13,7 +13,7 @@ from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import PRESSURE
 from optlaws.cams.followers.follower import CamFollower
-from optlaws.cams.forces import Surfaces
+from optlaws.cams.forces import CamForces, Surfaces
 from optlaws.cams.report import DIGITS, CamReport, forces_section, leaves
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, located
 from optlaws.explorer.views.cycle_view import SEGMENTS, CycleRequest
@@ -131,8 +131,12 @@ def sizes(request: CycleRequest) -> dict[str, Any]:
 def values_of(request: CycleRequest) -> ReportTable:
     """The cam degree by degree, with its forces where the motion has a drive."""
     result = result_of(request)
-    driven = result.spec.motion.drive is not None
-    return result.table_of(_STEPS + 1, (result.forces or result.forces_of(Surfaces())) if driven else None)
+    return result.table_of(_STEPS + 1, _forces(result))
+
+
+def _forces(result: CamResult) -> CamForces | None:
+    """The forces of a cam whose motion has a drive, whether its file has a table of them or not."""
+    return None if result.spec.motion.drive is None else result.forces or result.forces_of(Surfaces())
 
 
 def example() -> dict[str, Any]:
@@ -161,9 +165,9 @@ def loads(request: CycleRequest) -> dict[str, Any]:
     """Panels and words of a cam whose motion has a drive, and whether its follower leaves it; none without a drive."""
     try:
         result = result_of(request)
-        if result.spec.motion.drive is None:
+        forces = _forces(result)
+        if forces is None:
             return {"panels": [], "facts": []}
-        forces = result.forces or result.forces_of(Surfaces())
         panels, section = [panel_data(panel) for panel in result.report.loads(forces)], forces_section(forces)
         for pressed in panels[2:]:
             pressed["peaks"] = pressed["peaks"][-1:]
