@@ -170,17 +170,16 @@ def _stored(entries: StatedSolutions, shape: tuple[int, ...]) -> StoredSolutions
     results: dict[int, Solution | OptlawsError] = {}
     for place, data in enumerate(entries.solutions):
         with located(f"solutions[{place}]"):
-            problem = partial(problems.problem, place)
             if "error" in data:
                 row = stated(data, StatedError, "row without a law")
                 if row.problem is not None:
-                    _check_problem(row.problem, problem())
-                results[place] = read_error(row, problem)
+                    _check_problem(row.problem, problems.problem(place))
+                results[place] = read_error(row, partial(problems.problem, place))
             else:
                 state = {"state": beside[place]} if place in beside else {}
-                law = stated(state | data, StatedSolution, "solution")
-                _check_problem(law.problem, problem())
-                results[place] = Solution(**attributes(law, problem()))
+                law, problem = stated(state | data, StatedSolution, "solution"), problems.problem(place)
+                _check_problem(law.problem, problem)
+                results[place] = Solution(**attributes(law, problem))
     return StoredSolutions(problems, results, entries.seconds)
 
 
