@@ -31,6 +31,7 @@ _OUTLINE_DRAWN = 1e-5  # m: by so much the outline of an animated cam may be off
 _SHOWN = 8  # followers around the cam
 _SAMPLES = 721
 _FILL = "#dfe9f3"
+_FORCE_COLOURS = {"N": BLUES[3], "N m": WARM, "MPa": GREEN}
 #: of curves of the usual law
 _BESIDE: dict[str, Any] = {"color": GREY, "linewidth": 1.1, "linestyle": (0, (4, 2)), "zorder": 1.5}
 
@@ -58,7 +59,7 @@ def forces_figure(forces: CamForces, title: str, *, usual: tuple[str, CamForces]
     report = CamReport(forces.cam)
     process, loads = report.process(forces), report.loads(forces)
     name, beside = ("", ()) if usual is None else (usual[0], CamReport(usual[1].cam).loads(usual[1]))
-    panels = [*zip(process, [GREEN], strict=False), *zip(loads, (BLUES[3], WARM, GREEN), strict=False)]
+    panels = [*zip(process, [GREEN], strict=False), *((panel, _FORCE_COLOURS[panel.unit]) for panel in loads)]
     with plot_style():
         figure = new_figure(8.6, 2.2 * len(panels))
         column = np.ravel(figure.subplots(len(panels), 1, sharex=True))
@@ -71,7 +72,7 @@ def forces_figure(forces: CamForces, title: str, *, usual: tuple[str, CamForces]
                     axes.legend(loc="upper right")
             if process and colour == WARM:
                 _work_above_mean(axes, curve, 0.5 * sum(forces.mean_torque))
-            axes.set(xlabel="")
+            axes.set(xlabel="", ylabel=panel.title.replace(" of the return", "\nof the return"))
         figure.axes[-1].set(xlabel="cam, deg")
         figure.align_ylabels()
         return titled(figure, title)

@@ -3,8 +3,9 @@ import re
 import numpy as np
 import pytest
 
-from optlaws import CamForces, InputError
+from optlaws import CamForces, InputError, conjugate_cam
 from tests.cams.placed import FOLLOWERS, cam_of
+from tests.internals.cams import PairForces
 from tests.internals.plots import animated, forces_figure
 
 
@@ -44,6 +45,18 @@ def test_forces_are_drawn_with_the_pressure_where_it_is_known() -> None:
         (beside,) = (line for line in axes.lines if line.get_label() == "slow")
         degrees, values = (np.asarray(part, dtype=float) for part in beside.get_data())
         assert values == pytest.approx(curve(np.radians(degrees)), abs=1e-6 * np.abs(values).max())
+
+
+def test_forces_of_a_pair_are_drawn_for_the_return_cam_too() -> None:
+    cam = cam_of("translating roller")
+    pair = PairForces(
+        cam, speed="200 rpm", drive={"mass": "2 kg"}, width="20 mm", second=conjugate_cam(cam, distance="220 mm")
+    )
+    contact, torque, _, of_return, pressure = forces_figure(pair, "F").axes
+    assert [axes.lines[0].get_color() for axes in (contact, torque)] == [of_return.lines[0].get_color(), "#d95f02"]
+    for axes, curve in ((of_return, pair.contact_of_return), (pressure, pair.pressure_of_return)):
+        drawn = max(float(np.max(np.asarray(line.get_ydata(), dtype=float))) for line in axes.lines)
+        assert drawn == pytest.approx(curve.most * (1e-6 if axes is pressure else 1.0), rel=1e-4)
 
 
 @pytest.mark.parametrize("kind", ["translating roller", "oscillating roller"])
