@@ -37,14 +37,24 @@ from optlaws.cycles.optimisation.span_values import (
     torque_limit,
     total,
 )
-from optlaws.cycles.specification.limits import DECELERATION, FORCES, SPEEDING_UP, Side, Sides, in_units, tightest
-from optlaws.cycles.specification.programme import LawSpan, Layout, State
+from optlaws.cycles.specification.limits import (
+    DECELERATION,
+    FORCES,
+    SPEEDING_UP,
+    Side,
+    Sides,
+    greatest,
+    in_units,
+    tightest,
+)
+from optlaws.cycles.specification.programme import REST, LawSpan, Layout, State
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
 from optlaws.motion.piece import Piece
-from optlaws.motion.quantities import Kind, in_small_units
-from optlaws.sentences import Amount, sentence
+from optlaws.motion.quantities import TURN_DEG, Kind, in_small_units
+from optlaws.sentences import Amount, joined, sentence
 from optlaws.synthesis.functionals.makers import integral
+from optlaws.synthesis.least_time.move_limits import MoveLimits, segment_times
 from optlaws.synthesis.solution import Solution
 from optlaws.tolerances import AGREEMENT, FEASIBILITY
 
@@ -187,15 +197,18 @@ def best_of(layout: Layout, objective: CycleObjective, period: float) -> Best:
         return Best((), (), None)
     for span in layout.spans:
         refuse_too_weak(span, objective)
-    if not objective.shares:
-        laws = tuple(_solved(span, objective, period) for span in layout.spans)
-        chosen, remarks = ties_broken(layout, objective, laws, period)
-        return Best(chosen, remarks, bound_of(layout, laws, objective, period) if remarks else None)
-    if objective.drive is None:
+    if objective.shares and objective.drive is None:
         raise InputError(
             "limits: the RMS force and the energy of a cycle are of a drive: give one, such as drive={'mass': '2 kg'}"
         )
-    return _SharedLimit(layout, objective, period).best()
+    try:
+        if objective.shares:
+            return _SharedLimit(layout, objective, period).best()
+        laws = tuple(_solved(span, objective, period) for span in layout.spans)
+    except InfeasibleProblem as error:
+        raise _with_least_times(error, layout.spans, objective, period) from None
+    chosen, remarks = ties_broken(layout, objective, laws, period)
+    return Best(chosen, remarks, bound_of(layout, laws, objective, period) if remarks else None)
 
 
 def _solved(span: LawSpan, objective: CycleObjective, period: float) -> tuple[Piece, Solution]:
@@ -205,6 +218,42 @@ def _solved(span: LawSpan, objective: CycleObjective, period: float) -> tuple[Pi
         wider = with_least_limit(error, span, objective)
         wider.tried = with_places(wider.tried, span.starts[0], span.stop, period)
         raise wider from None
+
+
+def _with_least_times(
+    error: InfeasibleProblem, spans: Sequence[LawSpan], objective: CycleObjective, period: float
+) -> InfeasibleProblem:
+    """The error of one move, saying of all moves between rests that are too short how long any law takes."""
+    times = [text for span in spans if (text := _least_time(span, objective, period))]
+    error.args = (joined("; ", [error.args[0], *times]),)
+    return error
+
+
+def _least_time(span: LawSpan, objective: CycleObjective, period: float) -> str:
+    """A sentence on the time that laws of any degree take within limits of derivatives, where the span has less."""
+    if span.turns or span.via or len(span.stretches) > 1 or (span.first, span.last) != (REST, REST):
+        return ""
+    (sides,), way = span.sides(objective.limits), copysign(1.0, span.stroke)
+    limits = (
+        greatest(sides or {}, kind, direction)
+        for kind, direction in (
+            (Kind.VELOCITY, way),
+            (Kind.ACCELERATION, way),
+            (Kind.ACCELERATION, -way),
+            (Kind.JERK, 0.0),
+        )
+    )
+    known = MoveLimits(*(None if most == inf else most for most in limits))
+    fastest = segment_times(abs(span.stroke), known, objective.order)
+    if fastest is None or fastest.duration <= span.duration * (1.0 + AGREEMENT):
+        return ""
+    least, available = (
+        sentence("{} ({})", Amount(time, "s"), Amount(TURN_DEG * time / period, "deg"))
+        for time in (fastest.duration, span.duration)
+    )
+    return sentence(
+        "{}: within its limits any law takes {} or more, and it has {}", span.stretches[0].where, least, available
+    )
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,6 @@
 """What is optimal of whole cycles: single optima where they decouple, closed forms where durations are free."""
 
+import re
 import time
 from dataclasses import replace
 from typing import Any
@@ -271,6 +272,25 @@ def test_limits_that_cannot_be_kept_name_the_segment() -> None:
         assert Cycle(FIVE, speed="200 rpm", limits={"velocity": "300 mm/s"}).durations
     with pytest.raises(InputError, match="limits: velocity must be a velocity"):
         Cycle(FIVE, speed="200 rpm", limits={"velocity": "300 mm"})
+
+
+@pytest.mark.parametrize(
+    ("limits", "least"),
+    [
+        ({"velocity": "0.5 m/s", "acceleration": "5 m/s^2"}, 0.1 / 0.5 + 0.5 / 5.0),
+        ({"acceleration": ("-5 m/s^2", "10 m/s^2")}, (2.0 * 0.1 * (1.0 / 5.0 + 1.0 / 10.0)) ** 0.5),
+        ({"jerk": "100 m/s^3"}, (32.0 * 0.1 / 100.0) ** (1.0 / 3.0)),
+    ],
+)
+def test_all_moves_that_are_too_short_are_named_with_their_least_times(limits: dict[str, Any], least: float) -> None:
+    moves = [Rise("100 mm", "60 deg", name="Up"), Dwell("30 deg"), Return("100 mm", "50 deg", name="Down"), Dwell()]
+    with pytest.raises(InfeasibleProblem) as refused:
+        Cycle(moves, speed="60 rpm", limits=limits).solve()
+    number = rf"within its limits any law takes {least:.6g} s \({360.0 * least:.6g} deg\) or more, and it has"
+    for move, has in (("1 \\(Up", "0.166667 s"), ("3 \\(Down", "0.138889 s")):
+        assert re.search(rf"segment {move}\): {number} {has}", str(refused.value))
+    slow = Cycle(moves, period=f"{least / (50.0 / 360.0) * 1.5} s", limits=limits)
+    assert slow.solve().peaks
 
 
 def test_richer_laws_are_better() -> None:
