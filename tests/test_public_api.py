@@ -139,6 +139,15 @@ def test_the_name_of_a_link_is_one_of_its_bodies() -> None:
         optlaws.slider_crank("30 mm", "100 mm", slide="2 kg")  # type: ignore[call-arg]
 
 
+def test_an_entry_in_the_wrong_table_is_refused_with_the_table_that_has_it() -> None:
+    moves = [optlaws.Rise("3 mm", "0.1 s"), optlaws.Return()]
+    with pytest.raises(InputError, match=r"unknown entry of a cycle 'acceleration'; it is an entry of 'limits'$"):
+        optlaws.Cycle(moves, period="0.3 s", acceleration="1 m/s^2")  # type: ignore[call-arg]
+    stored = optlaws.Cycle(moves, period="0.3 s").to_dict()
+    with pytest.raises(InputError, match=r"unknown entry of a stored cycle 'jerk'; it is an entry of 'limits'$"):
+        optlaws.Cycle.from_dict(stored | {"jerk": "90 m/s^3"})
+
+
 @pytest.mark.parametrize("value", [optlaws.smoothstep(3), optlaws.synthesize(optlaws.Problem(B=1.7, order=3))])
 def test_a_misspelt_style_is_refused_by_what_draws(value: optlaws.MotionLaw | optlaws.Solution) -> None:
     with pytest.raises(AttributeError, match="misspelt_keyword"):

@@ -30,6 +30,8 @@ from optlaws.files.reading import JsonText, check_names
 from optlaws.motion.quantities import Derived, written
 from optlaws.spelling import known_spellings, other_spelling
 
+_MOST_OWNERS = 3  # tables that an error names: what more of them have is of no one in particular
+
 
 class FrozenTable(dict[str, Any]):
     """A table whose entries cannot be set, added or removed; it is equal to a plain one, and hashed by its entries.
@@ -271,8 +273,17 @@ def _mistake(cls: type[Declared], unknown: set[str], lacking: set[str], names: S
     known, called = entries_of(cls).values(), cls.named.replace("stored ", "")
     if not unknown:
         return next(each for each in known if each.field in lacking).missing_in(called)
-    inner = {key: each.name for each in known for table in each.type.tables().values() for key in table}
-    return unknown_key(min(unknown), names, f"entry of {called}", words=inner)
+    return _unknown(cls, min(unknown), names, f"entry of {called}", similar=True)
+
+
+def _unknown(cls: type[Declared], name: str, names: Sequence[str], called: str, *, similar: bool = False) -> str:
+    """What an error says of a name: which tables among the entries have it, or a `similar` one, or the nearest name."""
+    entries = entries_of(cls).values()
+    inner = [(each.name, key) for each in entries for table in each.type.tables().values() for key in table]
+    owners = dict.fromkeys(repr(owner) for owner, key in inner if key == name)
+    if 0 < len(owners) <= _MOST_OWNERS:
+        return f"unknown {called} {name!r}; it is an entry of {' and of '.join(owners)}"
+    return unknown_key(name, names, called, words={key: owner for owner, key in inner} if similar else None)
 
 
 def _given_type(text: Any, known: Mapping[str, Any]) -> Any:
@@ -424,7 +435,9 @@ class Declared(JsonText):
         given = cls._from_earlier(known_spellings(data, known))
         if cls.computes:
             given = {name: value for name, value in given.items() if name in known}
-        check_names(given, known, f"entry of {cls.named}")
+        other = next((name for name in given if name not in known), None)
+        if other is not None:
+            raise InputError(_unknown(cls, other, tuple(known), f"entry of {cls.named}"))
         for name, each in known.items():
             absent = name not in given or (given[name] is None and each.type.absent is None)
             if each.needed and absent:
