@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Iterable
+from decimal import ROUND_CEILING, Context
 from fractions import Fraction
 from math import frexp, inf, isfinite, ldexp, radians
 from numbers import Rational, Real
@@ -104,6 +105,15 @@ def chop(value: float, size: float, share: float) -> float:
 def chopped(values: Array, size: float, share: float) -> Array:
     """The values of an array, 0 where they are no more than rounding: a share of a size."""
     return np.where(np.abs(values) <= share * abs(size), 0.0, values)
+
+
+def rounded_up(value: float, digits: int) -> float:
+    """The least number of so many digits that is no less.
+
+    >>> rounded_up(18.94701, 4), rounded_up(0.07, 4), rounded_up(0.0, 4)
+    (18.95, 0.07, 0.0)
+    """
+    return float(Context(prec=digits, rounding=ROUND_CEILING).create_decimal(repr(float(value))))
 
 
 def power_of_two(size: float) -> float:

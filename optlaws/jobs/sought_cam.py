@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from math import ceil, floor, inf, log10
+from math import inf
 from typing import Any, Self
 
 from optlaws.cams.best_laws import (
@@ -40,12 +40,14 @@ from optlaws.jobs.cam_entries import CamProblemFile
 from optlaws.kept import kept_property
 from optlaws.laws.catalogue.catalogue import USUAL
 from optlaws.motion.quantities import MILLI, TURN, Exact, Kind, quantity
+from optlaws.numbers import rounded_up
 from optlaws.shown.steps import step
 from optlaws.synthesis.solution import Solution
 
 SIZE_MET = 1e-7  # of a radius: a size that is proven to so much is the least one
 _SEARCHED = 15  # the degree up to which a search for the bound of a power mostly succeeds
-_SPRINGS = 12  # how often laws and the spring that they need are sought in turn, each to four digits
+_SPRINGS = 12  # how often laws and the spring that they need are sought in turn
+_SPRING_DIGITS = 4
 #: before the names of the files of the return cam
 RETURN = "return-"
 #: what a spring adds to a drive, with its dimensions
@@ -83,7 +85,7 @@ class SoughtCam:
         circle = self._usual_radius if spec.best == "laws" and spec.radius is None else None
         for turns in range(_SPRINGS):
             spring = pressing.least_spring
-            needed = _rounded_up(spring.stiffness), _rounded_up(spring.preload)
+            needed = rounded_up(spring.stiffness, _SPRING_DIGITS), rounded_up(spring.preload, _SPRING_DIGITS)
             sizes = needed if turns < _SPRINGS // 2 else (max(needed[0], last[0]), max(needed[1], last[1]))
             if sizes == last:
                 break
@@ -94,7 +96,9 @@ class SoughtCam:
     def pressed_by(self, *sizes: float) -> CamProblemFile:
         """The file with a stiffness and a preload, rounded up, of a spring that was sought."""
         spec, units = self.spec, SPRING_UNITS[self.spec.cycle.axis][::-1]
-        texts = (f"{_rounded_up(size):.{DIGITS}g} {unit}" for size, unit in zip(sizes, units, strict=True))
+        texts = (
+            f"{rounded_up(size, _SPRING_DIGITS):.{DIGITS}g} {unit}" for size, unit in zip(sizes, units, strict=True)
+        )
         drive = {**self._linear_drive, **dict(zip(_SPRING, texts, strict=True))}
         return replace(spec, motion=replace(spec.motion, drive=drive), spring_sought=True)
 
@@ -105,7 +109,7 @@ class SoughtCam:
             return False
         spring, drive = self.least_spring, self._linear_drive
         return all(
-            _rounded_up(getattr(spring, name)) >= 0.99 * quantity(drive[name], dimensions, name)
+            rounded_up(getattr(spring, name), _SPRING_DIGITS) >= 0.99 * quantity(drive[name], dimensions, name)
             for name, dimensions in _SPRING.items()
         )
 
@@ -318,12 +322,6 @@ class SoughtCam:
             raise InputError("spring: no spring is looked for: give its speeds")
         load = {key: value for key, value in self._linear_drive.items() if key not in _SPRING}
         return least_spring(self.cam, drive=load, process=self.spec.process, **entries.to_dict())
-
-
-def _rounded_up(value: float) -> float:
-    """The least number of four digits that is no less."""
-    steps = 10.0 ** (3 - floor(log10(value))) if value > 0.0 else 1.0
-    return ceil(value * steps) / steps
 
 
 def _least_value(least: LeastPrimeCircle | str | None) -> Values:

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache, wraps
-from math import ceil, floor, log10
 from typing import Any, TypeAlias
 
 import msgspec
@@ -31,7 +30,7 @@ from optlaws.mechanisms.machine.residual import BandResidual
 from optlaws.mechanisms.machine.spectrum import Spectrum, weight_of
 from optlaws.motion.piece import factor
 from optlaws.motion.quantities import UNITS, either, quantity
-from optlaws.numbers import bounded
+from optlaws.numbers import bounded, rounded_up
 from optlaws.sentences import Amount
 from optlaws.synthesis.limits.of_problem import limited_laws
 from optlaws.synthesis.problem.problem import ENTRIES
@@ -211,7 +210,7 @@ def ways(problem: Problem) -> Iterator[dict[str, Any]]:
         bound = problem.range(name)
         least = None if bound is None or bound.low > 0.0 else solved(without(problem, name, minimise=name))
         if bound is not None and isinstance(least, Solution) and least.objective > bound.high:
-            value = _rounded_up(least.objective * (1.0 + BOUND_SLACK))
+            value = rounded_up(least.objective * (1.0 + BOUND_SLACK), _FIGURES)
             yield _way(name, value, f"raise the bound of {name}", bound.high)
     if isinstance(problem.basis, Chebyshev):
         degree = problem.basis.degree
@@ -228,11 +227,6 @@ def _has_law(problem: Problem) -> bool:
         if least is None or least > problem.B or (greatest is not None and greatest < problem.B):
             return False
     return isinstance(solved(problem), Solution)
-
-
-def _rounded_up(value: float) -> float:
-    unit = 10.0 ** (floor(log10(value)) + 1 - _FIGURES)
-    return float(f"{ceil(value / unit) * unit:.{_FIGURES}g}")
 
 
 def _way(entry: str, value: Any, words: str, now: float) -> dict[str, Any]:

@@ -6,7 +6,6 @@ import re
 import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from math import ceil, floor, log10
 from pathlib import Path
 from shlex import quote
 from textwrap import fill
@@ -20,6 +19,7 @@ from optlaws.jobs.starters.starter_numbers import DERIVATIVES, TYPES, numbers_of
 from optlaws.laws.catalogue.catalogue import USUAL, catalogue
 from optlaws.lazy import imported
 from optlaws.motion.quantities import DIMENSIONS, Exact, either, in_small_units, quantity
+from optlaws.numbers import rounded_up
 
 #: answers by the names of questions; None where an entry is left out
 Answers = dict[str, str | None]
@@ -114,8 +114,7 @@ def _usual(constant: str) -> float:
 
 def _at_least(value: float) -> str:
     """A number in a few digits, not below its value."""
-    unit = 10.0 ** (floor(log10(value)) + 1 - _DIGITS)
-    return f"{ceil(value / unit) * unit:.12g}"
+    return f"{rounded_up(value, _DIGITS):.12g}"
 
 
 def _dimensions(name: str) -> tuple[str, ...]:
