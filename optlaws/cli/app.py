@@ -12,7 +12,7 @@ from inspect import cleandoc
 from pathlib import Path
 from typing import Any
 
-from cyclopts import App, CycloptsError, Parameter, UnusedCliTokensError
+from cyclopts import App, CycloptsError, MissingArgumentError, Parameter, UnusedCliTokensError
 
 from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
@@ -136,6 +136,12 @@ def _plain(error: CycloptsError | InputError) -> str:
     """The text of an error, in words of the user's."""
     if isinstance(error, UnusedCliTokensError) and error.unused_tokens:
         return f"nothing takes {' '.join(error.unused_tokens)}: --help lists what the command takes"
+    if isinstance(error, MissingArgumentError) and error.argument is not None and error.command_chain:
+        command, name = f"`optlaws {' '.join(error.command_chain)}`", error.keyword or error.argument.name
+        choices = error.argument.get_choices() or ()
+        some = f", one of {', '.join(choices)}" if choices else ""
+        needs = f"{name} of {command} needs a value" if name.startswith("--") else f"{command} needs {name}"
+        return f"{needs}{some}: its --help says more"
     return str(error)
 
 
